@@ -1,0 +1,58 @@
+# Compile rules of our own targets, and the functions that declare a library, a stage, a tool and a test.
+add_library(sediment_rules INTERFACE)
+target_include_directories(sediment_rules INTERFACE ${CMAKE_SOURCE_DIR})
+# -ffp-contract=off: the same bytes whether or not a clone of a function may use fused multiply-add.
+# Never -march=native: Debian's PCL is built for baseline x86-64 and Eigen's alignment would differ.
+target_compile_options(sediment_rules INTERFACE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off
+                       $<$<BOOL:${SEDIMENT_WARNINGS_AS_ERRORS}>:-Werror>)
+
+# sediment_library(NAME LINKS target... SOURCES file...)
+function(sediment_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  add_library(${name} STATIC ${arg_SOURCES})
+  target_link_libraries(${name} PUBLIC sediment_rules ${arg_LINKS} PRIVATE ${arg_PRIVATE_LINKS})
+endfunction()
+
+# sediment_stage(NAME SOURCES file... LINKS target...): the library `stage_NAME` of the pure algorithm, and the
+# executable NAME from main.cpp that puts the contract and the artifacts around it.
+function(sediment_stage name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  sediment_library(stage_${name} SOURCES ${arg_SOURCES} LINKS sediment_scene ${arg_LINKS}
+                   PRIVATE_LINKS ${arg_PRIVATE_LINKS})
+  add_executable(${name} main.cpp)
+  target_link_libraries(${name} PRIVATE stage_${name} sediment_artifacts sediment_contract)
+endfunction()
+
+# sediment_tool(NAME SOURCES file... LINKS target...): the library `tool_NAME` and the executable NAME.
+function(sediment_tool name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  if(arg_SOURCES)
+    sediment_library(tool_${name} SOURCES ${arg_SOURCES} LINKS sediment_scene sediment_artifacts ${arg_LINKS}
+                     PRIVATE_LINKS ${arg_PRIVATE_LINKS})
+  endif()
+  add_executable(${name} main.cpp)
+  target_link_libraries(${name} PRIVATE sediment_rules sediment_artifacts CLI11::CLI11)
+  if(arg_SOURCES)
+    target_link_libraries(${name} PRIVATE tool_${name})
+  endif()
+endfunction()
+
+# sediment_test(NAME SOURCES file... LINKS target...): one Catch2 program `test_NAME`, each TEST_CASE a ctest entry.
+# A test that cannot run prints a line "skipped: needs ..." and ctest reports it as skipped.
+function(sediment_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINKS" ${ARGN})
+  add_executable(test_${name} ${arg_SOURCES})
+  target_link_libraries(test_${name} PRIVATE sediment_rules test_support ${arg_LINKS})
+  catch_discover_tests(test_${name} TEST_PREFIX "${name}: " DISCOVERY_MODE PRE_TEST
+                       PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: needs" TIMEOUT 600)
+endfunction()
+
+# sediment_add_subdirectories(): every subfolder that has a CMakeLists.txt, in alphabetical order.
+function(sediment_add_subdirectories)
+  file(GLOB lists CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} */CMakeLists.txt)
+  list(SORT lists)
+  foreach(list ${lists})
+    get_filename_component(folder ${list} DIRECTORY)
+    add_subdirectory(${folder})
+  endforeach()
+endfunction()
