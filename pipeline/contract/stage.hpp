@@ -100,7 +100,6 @@ class Stage {
   int run(int argc, char** argv, const std::function<void(Work&)>& body);
 
  private:
-  friend class CommandLine;
   void add(Parameter parameter, std::function<void(const Json&)> assign);
 
   Description description_;
