@@ -44,3 +44,5 @@ find_library(XXHASH_LIBRARY xxhash REQUIRED)
 add_library(sediment_xxhash INTERFACE)
 target_include_directories(sediment_xxhash SYSTEM INTERFACE ${XXHASH_INCLUDE})
 target_link_libraries(sediment_xxhash INTERFACE ${XXHASH_LIBRARY})
+
+find_package(OnnxRuntime)  # networks; optional: OpenCV's dnn is the fall-back
