@@ -1,0 +1,85 @@
+#!/usr/bin/env bash
+# Installs what Sediment is built from, on Debian 12: packages by apt, ONNX Runtime into third_party/ (ignored by git).
+#
+# usage: scripts/setup.sh [--check] [--no-onnxruntime]
+#   --check           only say what is missing, install nothing: exit 0 if nothing is, else 1
+#   --no-onnxruntime  leave ONNX Runtime out; the stage `segment` then runs networks with OpenCV, about half as fast
+#
+# Run it as root or with sudo at hand, as often as you like: it touches nothing that is there already.
+set -euo pipefail
+
+# The one list of packages. README.md says what each library is for.
+packages=(
+  build-essential cmake ninja-build ccache git ca-certificates curl
+  libopencv-dev libpcl-dev liboctomap-dev libeigen3-dev libceres-dev libyaml-cpp-dev libtbb-dev
+  nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev
+  catch2 libbenchmark-dev clang-format clang-tidy shellcheck
+)
+scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+
+say() { echo "setup: $*"; }
+fail() { echo "setup: $*" >&2; exit 1; }
+wrong_call() { echo "setup: $* (--help explains)" >&2; exit 2; }
+
+missing_packages() {
+  local package
+  for package in "${packages[@]}"; do
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || echo "$package"
+  done
+}
+
+# A system-wide ONNX Runtime, or one named by ONNXRUNTIME_ROOT, goes before ours (cmake/FindOnnxRuntime.cmake).
+has_onnxruntime() {
+  [ -n "${ONNXRUNTIME_ROOT-}" ] || compgen -G '/usr/include/onnxruntime*' >/dev/null ||
+    compgen -G '/usr/local/include/onnxruntime*' >/dev/null || "$scripts/fetch_onnxruntime.sh" --check 2>/dev/null
+}
+
+apt_install() {
+  local root_rights=()
+  if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null || fail "not root and no sudo; as root: apt-get install --no-install-recommends $*"
+    root_rights=(sudo)
+  fi
+  "${root_rights[@]}" apt-get update -q
+  "${root_rights[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "$@"
+}
+
+without_onnxruntime() {
+  echo "setup: WARNING: no ONNX Runtime ($1)." >&2
+  echo "setup: WARNING: everything works, but networks run with OpenCV's engine, about half as fast." >&2
+  echo "setup: WARNING: scripts/fetch_onnxruntime.sh tries again; it also takes an archive from elsewhere." >&2
+}
+
+fetch_onnxruntime() {
+  if ! command -v npm >/dev/null && ! apt_install npm; then
+    without_onnxruntime "npm, which downloads it, cannot be installed"
+  elif ! "$scripts/fetch_onnxruntime.sh"; then
+    without_onnxruntime "it could not be fetched, see above"
+  fi
+}
+
+check=false onnxruntime=true
+for argument in "$@"; do
+  case "$argument" in
+    --check) check=true ;;
+    --no-onnxruntime) onnxruntime=false ;;
+    -h | --help) sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "$0"; exit 0 ;;
+    *) wrong_call "unknown argument $argument" ;;
+  esac
+done
+
+command -v dpkg-query >/dev/null || fail "this is no Debian system; README.md lists the libraries to install by hand"
+mapfile -t missing < <(missing_packages)
+if $check; then
+  state=0
+  if [ ${#missing[@]} -gt 0 ]; then say "missing packages: ${missing[*]}"; state=1; fi
+  if $onnxruntime && ! has_onnxruntime; then say "missing: ONNX Runtime (scripts/fetch_onnxruntime.sh)"; state=1; fi
+  [ $state = 1 ] || say "nothing is missing"
+  exit $state
+fi
+if [ ${#missing[@]} -gt 0 ]; then
+  say "installing ${missing[*]}"
+  apt_install "${missing[@]}" || fail "apt-get could not install ${missing[*]}; its message is above"
+fi
+if $onnxruntime && ! has_onnxruntime; then fetch_onnxruntime; fi
+say "everything that Sediment is built from is there"
