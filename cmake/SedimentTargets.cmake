@@ -56,3 +56,11 @@ function(sediment_add_subdirectories)
     add_subdirectory(${folder})
   endforeach()
 endfunction()
+
+# sediment_script_test(SENTENCE SCRIPT argument...): a test in bash (tests/support/script_test.sh). The programs are in
+# the folder named by SEDIMENT_BIN.
+function(sediment_script_test sentence script)
+  add_test(NAME ${sentence} COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/${script} ${ARGN})
+  set_tests_properties(${sentence} PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: needs" TIMEOUT 900
+                       ENVIRONMENT SEDIMENT_BIN=${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
+endfunction()
