@@ -2,9 +2,9 @@
 //
 //   flaky_http_server FOLDER CUT_BYTES [--no-ranges]
 //
-// Serves the files of FOLDER. Each response ends, connection closed, after at most CUT_BYTES bytes of content (0: whole
-// files), though its header promises all that were asked for. Prints its port, then a line "PATH FIRST_BYTE" for
-// each request.
+// Serves the files of FOLDER. Each response ends, connection closed, after at most CUT_BYTES bytes of content
+// (0: whole files), though its header promises all that were asked for. Prints its port, then a line "PATH
+// FIRST_BYTE" for each request.
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -56,9 +56,10 @@ void answer(int connection, const std::string& folder, std::size_t cut_bytes, bo
     return send_all(connection, "HTTP/1.1 416 Range Not Satisfiable\r\nContent-Range: bytes */" + size +
                                     "\r\nContent-Length: 0\r\n\r\n");
   const std::string rest = partial ? content.substr(first) : content;
-  std::string header = partial ? "HTTP/1.1 206 Partial Content\r\nContent-Range: bytes " + std::to_string(first) +
-                                     "-" + std::to_string(content.size() - 1) + "/" + size + "\r\n"
-                               : "HTTP/1.1 200 OK\r\n";
+  std::string header = partial
+                           ? "HTTP/1.1 206 Partial Content\r\nContent-Range: bytes " + std::to_string(first) +
+                                 "-" + std::to_string(content.size() - 1) + "/" + size + "\r\n"
+                           : "HTTP/1.1 200 OK\r\n";
   header += "Content-Length: " + std::to_string(rest.size()) + "\r\nConnection: close\r\n\r\n";
   send_all(connection, header + rest.substr(0, cut_bytes > 0 ? cut_bytes : rest.size()));
 }
