@@ -32,8 +32,8 @@ class DynamicMasksWriter {
   std::map<std::string, std::vector<Interaction>> frames_;
 };
 
-/// Reads the masks of the `dynamic-masks` artifact; any folder with masks/STAMP.png of values 0, 1, 2 will do
-/// (the json is not needed). Throws std::runtime_error that names file and frame.
+/// Reads the masks of the `dynamic-masks` artifact; any folder with masks/STAMP.png or STAMP.png of values 0,
+/// 1, 2 will do (the json is not needed). Throws std::runtime_error that names file and frame.
 class DynamicMasksReader {
  public:
   explicit DynamicMasksReader(std::filesystem::path folder);

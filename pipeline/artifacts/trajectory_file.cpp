@@ -1,0 +1,94 @@
+#include "pipeline/artifacts/trajectory_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "pipeline/artifacts/file_bytes.hpp"
+#include "pipeline/artifacts/frame_json.hpp"
+#include "pipeline/artifacts/text_table.hpp"
+
+namespace sediment {
+namespace {
+
+constexpr const char* kFormat = "sediment-tracking 1";
+constexpr const char* kColumns[8] = {"timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw"};
+
+StampedPose pose_from_row(const TextRow& row) {
+  if (row.columns.size() != 8)
+    throw std::runtime_error("expected 8 columns (timestamp tx ty tz qx qy qz qw), found " +
+                             std::to_string(row.columns.size()));
+  double v[8];
+  for (int i = 0; i < 8; ++i) v[i] = expect_number(row.columns[i], kColumns[i]);
+  return {std::string(row.columns[0]), v[0], pose_from({v[4], v[5], v[6], v[7]}, {v[1], v[2], v[3]})};
+}
+
+std::string line_of(const StampedPose& pose) {
+  const Vec3 t = pose.world_from_camera.translation;
+  const Quaternion q = quaternion_of(pose.world_from_camera);
+  if (!std::isfinite(norm(t)) || !std::isfinite(q.x + q.y + q.z + q.w))
+    throw std::runtime_error("the pose of frame " + pose.stamp + " is not finite");
+  char text[256];
+  std::snprintf(text, sizeof text, " %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", t.x, t.y, t.z, q.x, q.y, q.z,
+                q.w);
+  return pose.stamp + text;
+}
+
+}  // namespace
+
+Trajectory read_tum_trajectory(const std::filesystem::path& file) {
+  Trajectory trajectory;
+  std::map<double, int> line_of_stamp;
+  read_rows(file, [&](const TextRow& row) {
+    trajectory.push_back(pose_from_row(row));
+    const auto [first, fresh] = line_of_stamp.emplace(trajectory.back().stamp_s, row.line);
+    if (!fresh)
+      throw std::runtime_error("stamp " + trajectory.back().stamp + " is given twice (first in line " +
+                               std::to_string(first->second) + ")");
+  });
+  std::sort(trajectory.begin(), trajectory.end(),
+            [](const StampedPose& a, const StampedPose& b) { return a.stamp_s < b.stamp_s; });
+  return trajectory;
+}
+
+void write_tum_trajectory(const std::filesystem::path& file, const Trajectory& trajectory) {
+  std::string text = "# timestamp tx ty tz qx qy qz qw\n";
+  for (const StampedPose& pose : trajectory) text += line_of(pose);
+  write_bytes(file, {text});
+}
+
+void write_trajectory(const std::filesystem::path& folder, const Trajectory& trajectory,
+                      const std::vector<FrameTracking>& frames) {
+  std::set<std::string> keyframe_stamps;
+  std::vector<Json> list;
+  for (const FrameTracking& frame : frames) {
+    if (frame.keyframe) keyframe_stamps.insert(frame.stamp);
+    list.push_back({{"stamp", frame.stamp},
+                    {"state", frame.state == TrackingState::tracked ? "tracked" : "lost"},
+                    {"keyframe", frame.keyframe},
+                    {"matches", frame.matches},
+                    {"inliers", frame.inliers},
+                    {"residual_px", frame.residual_px}});
+  }
+  Trajectory keyframes;
+  for (const StampedPose& pose : trajectory)
+    if (keyframe_stamps.erase(pose.stamp) != 0) keyframes.push_back(pose);
+  if (!keyframe_stamps.empty())
+    throw std::runtime_error("keyframe " + *keyframe_stamps.begin() + " has no pose in the trajectory");
+  write_tum_trajectory(folder / "trajectory.txt", trajectory);
+  write_tum_trajectory(folder / "keyframes.txt", keyframes);
+  write_frame_json(folder / "tracking.json", kFormat, list);
+}
+
+Trajectory read_trajectory(const std::filesystem::path& folder) {
+  return read_tum_trajectory(folder / "trajectory.txt");
+}
+
+Trajectory read_keyframes(const std::filesystem::path& folder) {
+  return read_tum_trajectory(folder / "keyframes.txt");
+}
+
+}  // namespace sediment
