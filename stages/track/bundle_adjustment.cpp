@@ -1,0 +1,141 @@
+#include "stages/track/bundle_adjustment.hpp"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <memory>
+#include <stdexcept>
+
+namespace sediment::track {
+namespace {
+
+using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+constexpr double kNearest_m = 0.05;
+
+// A camera as 7 numbers, quaternion (x y z w) and translation, moved by exp(rotation) on the left. Its
+// PlusJacobian is the identity over six columns: cost functions put their derivative by the six numbers of
+// the update into the first six columns and 0 into the last, which saves the chain through the quaternion.
+class PoseManifold : public ceres::Manifold {
+ public:
+  int AmbientSize() const override { return 7; }
+  int TangentSize() const override { return 6; }
+  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override {
+    const Eigen::Vector3d w(delta[0], delta[1], delta[2]);
+    const double angle = w.norm();
+    Eigen::Quaterniond turn(1, 0.5 * w.x(), 0.5 * w.y(), 0.5 * w.z());
+    if (angle > 1e-9) turn = Eigen::AngleAxisd(angle, w / angle);
+    const Eigen::Quaterniond q = (turn * Eigen::Map<const Eigen::Quaterniond>(x)).normalized();
+    Eigen::Map<Eigen::Quaterniond> moved(x_plus_delta);
+    moved = q;
+    for (int i = 0; i < 3; ++i) x_plus_delta[4 + i] = x[4 + i] + delta[3 + i];
+    return true;
+  }
+  bool PlusJacobian(const double*, double* jacobian) const override {
+    Eigen::Map<Eigen::Matrix<double, 7, 6, Eigen::RowMajor>> j(jacobian);
+    j.setZero();
+    j.topRows<6>().setIdentity();
+    return true;
+  }
+  bool Minus(const double*, const double*, double*) const override { return false; }
+  bool MinusJacobian(const double*, double*) const override { return false; }
+};
+
+class ObservationCost : public ceres::SizedCostFunction<3, 7, 3> {
+ public:
+  ObservationCost(const Measurement& measurement, const Pinhole& pinhole)
+      : measurement_(measurement), pinhole_(pinhole) {}
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const RowMajor3 rotation = Eigen::Map<const Eigen::Quaterniond>(parameters[0]).toRotationMatrix();
+    const Eigen::Vector3d turned = rotation * Eigen::Map<const Eigen::Vector3d>(parameters[1]);
+    const Vec3 p{turned.x() + parameters[0][4], turned.y() + parameters[0][5], turned.z() + parameters[0][6]};
+    if (p.z < kNearest_m) return false;  // the step is refused and shortened
+    const auto r = residual_of(measurement_, pinhole_, p);
+    std::copy(r.begin(), r.end(), residuals);
+    if (!jacobians) return true;
+    const auto by_point_values = residual_by_point(measurement_, pinhole_, p);
+    const Eigen::Map<const RowMajor3> by_point(by_point_values.data());
+    if (jacobians[0]) {
+      Eigen::Map<Eigen::Matrix<double, 3, 7, Eigen::RowMajor>> j(jacobians[0]);
+      RowMajor3 cross;  // derivative of exp(w) q by w: -[q]x, q = R * point
+      cross << 0, turned.z(), -turned.y(), -turned.z(), 0, turned.x(), turned.y(), -turned.x(), 0;
+      j.leftCols<3>().noalias() = by_point * cross;
+      j.middleCols<3>(3) = by_point;
+      j.col(6).setZero();
+    }
+    if (jacobians[1]) Eigen::Map<RowMajor3>(jacobians[1]).noalias() = by_point * rotation;
+    return true;
+  }
+
+ private:
+  const Measurement& measurement_;
+  const Pinhole& pinhole_;
+};
+
+ceres::Solver::Options options_of(const AdjustmentRule& rule, int free_cameras) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = free_cameras <= 40 ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
+  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;  // no BLAS whose threads change the sums
+  options.dense_linear_algebra_library_type = ceres::EIGEN;
+  options.num_threads = 1;
+  options.max_num_iterations = rule.max_iterations;
+  options.function_tolerance = 1e-5;
+  options.logging_type = ceres::SILENT;
+  return options;
+}
+
+}  // namespace
+
+double adjust(Bundle& bundle, const Pinhole& pinhole, const AdjustmentRule& rule) {
+  ceres::Problem::Options ownership;
+  ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.disable_all_safety_checks = true;
+  PoseManifold manifold;
+  ceres::HuberLoss huber2(std::sqrt(kChiSquare2)), huber3(std::sqrt(kChiSquare3));
+  ceres::Problem problem(ownership);
+  auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+
+  std::vector<std::array<double, 7>> cameras(bundle.cameras.size());
+  int free_cameras = 0;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const Quaternion q = quaternion_of(bundle.cameras[i].camera_from_world);
+    const Vec3 t = bundle.cameras[i].camera_from_world.translation;
+    cameras[i] = {q.x, q.y, q.z, q.w, t.x, t.y, t.z};
+    problem.AddParameterBlock(cameras[i].data(), 7, &manifold);
+    ordering->AddElementToGroup(cameras[i].data(), 1);
+    if (bundle.cameras[i].fixed) problem.SetParameterBlockConstant(cameras[i].data());
+    free_cameras += !bundle.cameras[i].fixed;
+  }
+  for (Vec3& point : bundle.points) {
+    problem.AddParameterBlock(&point.x, 3);
+    ordering->AddElementToGroup(&point.x, 0);
+  }
+  for (const Bundle::Observation& o : bundle.observations) {
+    ceres::LossFunction* loss = o.measurement.inverse_depth > 0 ? &huber3 : &huber2;
+    problem.AddResidualBlock(new ObservationCost(o.measurement, pinhole), rule.robust ? loss : nullptr,
+                             cameras[o.camera_idx].data(), &bundle.points[o.point_idx].x);
+  }
+  ceres::Solver::Options options = options_of(rule, free_cameras);
+  options.linear_solver_ordering = ordering;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable()) throw std::runtime_error("bundle adjustment failed: " + summary.message);
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    if (!bundle.cameras[i].fixed)
+      bundle.cameras[i].camera_from_world =
+          pose_from({cameras[i][0], cameras[i][1], cameras[i][2], cameras[i][3]},
+                    {cameras[i][4], cameras[i][5], cameras[i][6]});
+  return summary.final_cost;
+}
+
+double chi_square(const Bundle& bundle, const Bundle::Observation& observation, const Pinhole& pinhole) {
+  const Vec3 p =
+      bundle.cameras[observation.camera_idx].camera_from_world * bundle.points[observation.point_idx];
+  if (p.z < kNearest_m) return 1e9;
+  const auto r = residual_of(observation.measurement, pinhole, p);
+  return r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+}
+
+}  // namespace sediment::track

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "stages/track/pose_estimation.hpp"
+
+namespace sediment::track {
+
+/// Cameras, landmarks and what the ones measured of the others.
+struct Bundle {
+  struct Camera {
+    Pose camera_from_world;
+    bool fixed = false;
+  };
+  struct Observation {
+    int camera_idx = 0, point_idx = 0;
+    Measurement measurement;
+  };
+  std::vector<Camera> cameras;
+  std::vector<Vec3> points;
+  std::vector<Observation> observations;
+};
+
+struct AdjustmentRule {
+  int max_iterations = 10;
+  bool robust = true;  ///< Huber loss at the 95 % bound; plain least squares without
+};
+
+/// Minimises the sum of the squared residuals over all cameras that are not fixed and over all points, in
+/// place (Triggs et al., Bundle Adjustment: a Modern Synthesis, 2000; Ceres, points eliminated first). One
+/// thread: the order of all sums is fixed. Returns the final cost. Throws std::runtime_error if the solver
+/// fails.
+double adjust(Bundle& bundle, const Pinhole& pinhole, const AdjustmentRule& rule);
+
+/// Squared residual of an observation in standard deviations; a large number behind the camera.
+double chi_square(const Bundle& bundle, const Bundle::Observation& observation, const Pinhole& pinhole);
+
+}  // namespace sediment::track

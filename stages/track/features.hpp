@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "pipeline/scene/camera.hpp"
+#include "stages/track/parameters.hpp"
+
+namespace sediment::track {
+
+inline constexpr int kPyramidLevels = 8;
+inline constexpr float kPyramidScale = 1.2f;
+/// Size of a pixel of a pyramid level in pixels of level 0.
+extern const std::array<float, kPyramidLevels> kLevelScale;
+
+/// 256 bits of an ORB descriptor.
+using Descriptor = std::array<std::uint64_t, 4>;
+
+inline int hamming_distance(const Descriptor& a, const Descriptor& b) {
+  return __builtin_popcountll(a[0] ^ b[0]) + __builtin_popcountll(a[1] ^ b[1]) +
+         __builtin_popcountll(a[2] ^ b[2]) + __builtin_popcountll(a[3] ^ b[3]);
+}
+
+/// One ORB feature of a frame.
+struct Feature {
+  float u_px = 0, v_px = 0;  ///< position in the ideal pinhole image (the lens undone)
+  float inverse_depth = 0;   ///< 1/m, 0 = no reliable depth
+  float angle_deg = 0;       ///< orientation of the patch
+  int octave = 0;            ///< pyramid level
+};
+
+/// The features of one frame, with a grid over the image for searches by place.
+class FrameFeatures {
+ public:
+  FrameFeatures() = default;
+  FrameFeatures(std::vector<Feature> features, std::vector<Descriptor> descriptors, int width, int height);
+
+  std::size_t size() const { return features_.size(); }
+  const Feature& feature(std::size_t feature_idx) const { return features_[feature_idx]; }
+  const Descriptor& descriptor(std::size_t feature_idx) const { return descriptors_[feature_idx]; }
+  const std::vector<Feature>& features() const { return features_; }
+  const std::vector<Descriptor>& descriptors() const { return descriptors_; }
+
+  /// Appends the indices of the features within `radius_px` (square) of a place and with an octave in
+  /// [min_octave, max_octave] to `found`, after clearing it. Fixed order.
+  void find_near(float u_px, float v_px, float radius_px, int min_octave, int max_octave,
+                 std::vector<int>& found) const;
+
+ private:
+  int cell_of(float position_px, int cells) const;
+
+  std::vector<Feature> features_;
+  std::vector<Descriptor> descriptors_;
+  int columns_ = 0, rows_ = 0;
+  std::vector<int> cell_start_;  ///< columns * rows + 1 offsets into cell_features_
+  std::vector<int> cell_features_;
+};
+
+/// ORB features of a frame (Rublee et al., ICCV 2011): FAST corners over a pyramid, spread evenly over the
+/// image, none on the dynamic pixels of `mask` (CV_8UC1, any value but 0; may be empty) or within their halo.
+/// `gray` is CV_8UC1 and raw, `depth` CV_16UC1.
+FrameFeatures extract_features(const cv::Mat& gray, const cv::Mat& depth, const cv::Mat& mask,
+                               const Camera& camera, const Parameters& parameters);
+
+}  // namespace sediment::track

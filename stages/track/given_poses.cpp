@@ -1,0 +1,37 @@
+#include "stages/track/given_poses.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace sediment::track {
+namespace {
+
+void require_finite(const StampedPose& pose) {
+  const Vec3& t = pose.world_from_camera.translation;
+  bool finite = std::isfinite(pose.stamp_s) && std::isfinite(t.x) && std::isfinite(t.y) && std::isfinite(t.z);
+  for (const double value : pose.world_from_camera.rotation) finite = finite && std::isfinite(value);
+  if (!finite) throw std::runtime_error("the given pose at " + pose.stamp + " is not finite");
+}
+
+}  // namespace
+
+std::vector<FrameTracking> resample(const Trajectory& given, const std::vector<std::string>& stamps,
+                                    const std::vector<double>& stamps_s, double max_gap_s,
+                                    Trajectory& poses) {
+  for (const StampedPose& pose : given) require_finite(pose);
+  poses.clear();
+  std::vector<FrameTracking> frames;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    FrameTracking frame;
+    frame.stamp = stamps[i];
+    if (const auto pose = pose_at(given, stamps_s[i], max_gap_s)) {
+      frame.state = TrackingState::tracked;
+      frame.keyframe = true;
+      poses.push_back({stamps[i], stamps_s[i], *pose});
+    }
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+}  // namespace sediment::track

@@ -1,0 +1,75 @@
+#include "pipeline/artifacts/dynamic_masks.hpp"
+#include "pipeline/artifacts/sequence.hpp"
+#include "pipeline/artifacts/trajectory_file.hpp"
+#include "pipeline/contract/progress.hpp"
+#include "pipeline/contract/stage.hpp"
+#include "stages/track/given_poses.hpp"
+#include "stages/track/track.hpp"
+
+namespace {
+
+using namespace sediment;
+namespace kind = contract::kind;
+
+track::Recording recording_of(const Sequence& sequence, const DynamicMasksReader* masks) {
+  track::Recording recording;
+  recording.camera = sequence.camera();
+  for (std::size_t i = 0; i < sequence.size(); ++i) {
+    recording.stamps.push_back(sequence.entry(i).stamp);
+    recording.stamps_s.push_back(sequence.entry(i).stamp_s);
+  }
+  recording.frame = [&sequence](std::size_t i) { return sequence.frame(i); };
+  if (masks)
+    recording.dynamic_mask = [&sequence, masks](std::size_t i) {
+      return masks->read(sequence.entry(i).stamp);
+    };
+  return recording;
+}
+
+track::Tracked poses_given(const track::Recording& recording, const contract::Work& work, double max_gap_s) {
+  if (!work.has("poses")) throw contract::UsageError("engine given needs --poses FILE");
+  track::Tracked result;
+  result.frames = track::resample(read_tum_trajectory(work.in("poses")), recording.stamps, recording.stamps_s,
+                                  max_gap_s, result.poses);
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  track::Parameters parameters;
+  contract::Stage stage("track", "Camera trajectory from ORB features outside the dynamic masks");
+  stage.reads("sequence", kind::kSequence, "the recording");
+  stage.reads_optional("dynamic", kind::kDynamicMasks, "pixels to leave out");
+  stage.reads_optional("poses", kind::kFile, "engine given: a trajectory in TUM format");
+  stage.writes("trajectory", kind::kTrajectory, "a pose for every frame that could be tracked");
+  stage.tunes("engine", parameters.engine, "track the images, or take the poses given",
+              contract::Choices<track::Engine>{{"orb", track::Engine::orb}, {"given", track::Engine::given}});
+  stage.tunes("features", parameters.features, "ORB features a frame", {100, 10000});
+  stage.tunes("mask_halo_px", parameters.mask_halo_px, "no feature this close to a dynamic pixel", {0, 100});
+  stage.tunes("depth_max_m", parameters.depth_max_m, "depth beyond is not used, metres", {0.1, 1000});
+  stage.tunes("depth_noise", parameters.depth_noise, "standard deviation of an inverse depth, 1/m",
+              {1e-6, 1});
+  stage.tunes("pixel_noise_px", parameters.pixel_noise_px,
+              "standard deviation of a feature's position, pixels", {0.01, 10});
+  stage.tunes("min_coverage", parameters.min_coverage, "an error if a smaller share of the frames has a pose",
+              {0, 1});
+  stage.tunes("max_gap_s", parameters.max_gap_s, "engine given: longest gap that is interpolated, seconds",
+              {0, 10});
+  return stage.run(argc, argv, [&](contract::Work& work) {
+    const Sequence sequence = Sequence::open(work.in("sequence"));
+    std::optional<DynamicMasksReader> masks;
+    if (work.has("dynamic")) masks.emplace(work.in("dynamic"));
+    const auto recording = recording_of(sequence, masks ? &*masks : nullptr);
+    contract::Progress progress("track", sequence.size(), "frames");
+    const auto result = parameters.engine == track::Engine::given
+                            ? poses_given(recording, work, parameters.max_gap_s)
+                            : track::track(recording, parameters, [&] { progress.advance(); });
+    work.metrics()["frames"] = result.frames.size();
+    work.metrics()["tracked"] = result.poses.size();
+    work.metrics()["coverage"] = track::coverage(result.frames);
+    work.metrics()["landmarks"] = result.landmarks;
+    track::require_coverage(result.frames, parameters.min_coverage);
+    write_trajectory(work.out(), result.poses, result.frames);
+  });
+}

@@ -1,0 +1,117 @@
+#include "stages/track/map_adjustment.hpp"
+
+#include <algorithm>
+
+namespace sediment::track {
+namespace {
+
+constexpr int kLocalKeyframes = 8, kFixedKeyframes = 16, kLeastShared = 15;
+constexpr int kLocalIterations = 5, kFullIterations = 12;
+constexpr double kNearest_m = 0.1;
+
+// A part of the map as the solver takes it, and where its numbers came from.
+struct Extract {
+  Bundle bundle;
+  std::vector<int> keyframe_idx, point_id;  ///< per camera, per point
+  std::vector<Sighting> sightings;          ///< per observation
+};
+
+// Keyframes with their flag `fixed`, and all points that the free ones see.
+Extract extract(const Map& map, const std::vector<std::pair<int, bool>>& keyframes, const Pinhole& pinhole) {
+  Extract part;
+  std::vector<int> camera_of(map.keyframes.size(), -1), point_of(map.points.size(), -1);
+  for (const auto& [keyframe_idx, fixed] : keyframes) {
+    camera_of[keyframe_idx] = static_cast<int>(part.keyframe_idx.size());
+    part.keyframe_idx.push_back(keyframe_idx);
+    part.bundle.cameras.push_back({map.keyframes[keyframe_idx].world_from_camera.inverse(), fixed});
+  }
+  for (const auto& [keyframe_idx, fixed] : keyframes)
+    for (const int point_id : map.keyframes[keyframe_idx].point_ids) {
+      if (fixed || point_id < 0 || point_of[point_id] >= 0) continue;
+      point_of[point_id] = static_cast<int>(part.point_id.size());
+      part.point_id.push_back(point_id);
+      part.bundle.points.push_back(map.points[point_id].position);
+    }
+  for (std::size_t i = 0; i < part.point_id.size(); ++i)
+    for (const Sighting& s : map.points[part.point_id[i]].sightings) {
+      if (camera_of[s.keyframe_idx] < 0) continue;
+      const Bundle::Observation o{
+          camera_of[s.keyframe_idx], static_cast<int>(i),
+          measurement_of(map.keyframes[s.keyframe_idx].features->feature(s.feature_idx), pinhole)};
+      const Vec3 p = part.bundle.cameras[o.camera_idx].camera_from_world * part.bundle.points[i];
+      if (p.z < kNearest_m) continue;
+      part.bundle.observations.push_back(o);
+      part.sightings.push_back(s);
+    }
+  return part;
+}
+
+void write_back(const Extract& part, Map& map) {
+  for (std::size_t i = 0; i < part.keyframe_idx.size(); ++i)
+    if (!part.bundle.cameras[i].fixed)
+      map.keyframes[part.keyframe_idx[i]].world_from_camera =
+          part.bundle.cameras[i].camera_from_world.inverse();
+  for (std::size_t i = 0; i < part.point_id.size(); ++i)
+    map.points[part.point_id[i]].position = part.bundle.points[i];
+}
+
+// Takes out what does not fit, and landmarks that nothing holds any more.
+void drop_outliers(const Extract& part, const Pinhole& pinhole, Map& map) {
+  for (std::size_t i = 0; i < part.sightings.size(); ++i) {
+    const Bundle::Observation& o = part.bundle.observations[i];
+    if (chi_square(part.bundle, o, pinhole) > chi_square_bound(o.measurement))
+      map.disconnect(part.point_id[o.point_idx], part.sightings[i].keyframe_idx);
+  }
+  for (const int point_id : part.point_id)
+    if (map.points[point_id].sightings.empty())
+      map.remove_point(point_id);
+    else
+      map.refresh_point(point_id);
+}
+
+}  // namespace
+
+void adjust_around(Map& map, int keyframe_idx, const Pinhole& pinhole) {
+  std::vector<std::pair<int, bool>> keyframes{{keyframe_idx, keyframe_idx == 0}};
+  std::vector<char> chosen(map.keyframes.size(), 0);
+  chosen[keyframe_idx] = 1;
+  for (const auto& [shared, other] : map.covisible(keyframe_idx, kLeastShared)) {
+    if (static_cast<int>(keyframes.size()) >= kLocalKeyframes) break;
+    keyframes.emplace_back(other, other == 0);
+    chosen[other] = 1;
+  }
+  // Keyframes outside that hold the most of these landmarks keep the window in place.
+  std::vector<int> votes(map.keyframes.size(), 0);
+  std::vector<char> counted(map.points.size(), 0);
+  for (const auto& [free_idx, fixed] : keyframes)
+    for (const int point_id : map.keyframes[free_idx].point_ids) {
+      if (point_id < 0 || counted[point_id]++) continue;
+      for (const Sighting& s : map.points[point_id].sightings)
+        votes[s.keyframe_idx] += !chosen[s.keyframe_idx];
+    }
+  std::vector<std::pair<int, int>> outside;
+  for (int i = 0; i < static_cast<int>(votes.size()); ++i)
+    if (votes[i] > 0) outside.emplace_back(-votes[i], i);
+  std::sort(outside.begin(), outside.end());
+  for (std::size_t i = 0; i < outside.size() && i < kFixedKeyframes; ++i)
+    keyframes.emplace_back(outside[i].second, true);
+  const bool held = std::any_of(keyframes.begin(), keyframes.end(), [](const auto& k) { return k.second; });
+  if (!held) keyframes.back().second = true;
+  Extract part = extract(map, keyframes, pinhole);
+  adjust(part.bundle, pinhole, {kLocalIterations, true});
+  write_back(part, map);
+  drop_outliers(part, pinhole, map);
+}
+
+void adjust_all(Map& map, const Pinhole& pinhole) {
+  std::vector<std::pair<int, bool>> keyframes;
+  for (int i = 0; i < static_cast<int>(map.keyframes.size()); ++i) keyframes.emplace_back(i, i == 0);
+  for (const bool robust : {true, false}) {
+    Extract part = extract(map, keyframes, pinhole);
+    adjust(part.bundle, pinhole, {kFullIterations, robust});
+    write_back(part, map);
+    drop_outliers(part, pinhole, map);
+  }
+}
+
+}  // namespace sediment::track

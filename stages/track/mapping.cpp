@@ -1,0 +1,96 @@
+#include "stages/track/mapping.hpp"
+
+#include <algorithm>
+
+#include "stages/track/map_adjustment.hpp"
+
+namespace sediment::track {
+namespace {
+
+constexpr int kNeighbours = 10, kLeastShared = 15;
+
+void create_points(Map& map, int keyframe_idx, const Pinhole& pinhole) {
+  const Pose world_from_camera = map.keyframes[keyframe_idx].world_from_camera;
+  const auto features = map.keyframes[keyframe_idx].features;
+  for (int i = 0; i < static_cast<int>(features->size()); ++i) {
+    if (map.keyframes[keyframe_idx].point_ids[i] >= 0 || features->feature(i).inverse_depth == 0) continue;
+    map.add_point(world_from_camera * pinhole.point_of(features->feature(i)), {keyframe_idx, i});
+  }
+}
+
+// Finds landmarks in a keyframe that does not have them yet: joins them with the landmark its feature shows
+// already, or lets it see them.
+void fuse_into(Map& map, int keyframe_idx, const std::vector<int>& point_ids, const Pinhole& pinhole) {
+  const Keyframe& keyframe = map.keyframes[keyframe_idx];
+  std::vector<char> present(map.points.size(), 0);
+  for (const int point_id : keyframe.point_ids)
+    if (point_id >= 0) present[point_id] = 1;
+  std::vector<int> absent;
+  for (const int point_id : point_ids)
+    if (!present[point_id]) absent.push_back(point_id);
+  const std::vector<char> none_taken(keyframe.features->size(), 0);
+  const SearchRule rule{3, 50, 1.0};
+  const auto targets = visible_targets(map, absent, pinhole, keyframe.world_from_camera.inverse());
+  for (const Match& match : match_targets(targets, *keyframe.features, none_taken, pinhole, rule)) {
+    if (map.points[match.point_id].removed) continue;
+    const Measurement measurement = measurement_of(keyframe.features->feature(match.feature_idx), pinhole);
+    const auto r = residual_of(measurement, pinhole,
+                               keyframe.world_from_camera.inverse() * map.points[match.point_id].position);
+    if (r[0] * r[0] + r[1] * r[1] + r[2] * r[2] > chi_square_bound(measurement)) continue;
+    const int there = keyframe.point_ids[match.feature_idx];
+    if (there < 0) {
+      map.connect(match.point_id, {keyframe_idx, match.feature_idx});
+      map.refresh_point(match.point_id);
+    } else {
+      const bool keep_there =
+          map.points[there].sightings.size() >= map.points[match.point_id].sightings.size();
+      map.merge_points(keep_there ? there : match.point_id, keep_there ? match.point_id : there);
+    }
+  }
+}
+
+void cull_recent_points(Map& map, int keyframe_idx) {
+  for (std::size_t point_id = 0; point_id < map.points.size(); ++point_id) {
+    const MapPoint& point = map.points[point_id];
+    const int age = keyframe_idx - point.first_keyframe_idx;
+    if (point.removed || age < 1 || age > 3) continue;
+    const bool seldom_found = 4 * point.found < point.expected;
+    const bool alone = age >= 3 && point.sightings.size() < 2;
+    if (seldom_found || alone) map.remove_point(static_cast<int>(point_id));
+  }
+}
+
+}  // namespace
+
+std::vector<int> points_of(const Map& map, const std::vector<int>& keyframes) {
+  std::vector<int> point_ids;
+  for (const int keyframe_idx : keyframes)
+    for (const int point_id : map.keyframes[keyframe_idx].point_ids)
+      if (point_id >= 0) point_ids.push_back(point_id);
+  std::sort(point_ids.begin(), point_ids.end());
+  point_ids.erase(std::unique(point_ids.begin(), point_ids.end()), point_ids.end());
+  return point_ids;
+}
+
+int add_keyframe(Map& map, int frame_idx, const Pose& world_from_camera,
+                 std::shared_ptr<const FrameFeatures> features, const std::vector<Match>& matches,
+                 const Pinhole& pinhole) {
+  const int keyframe_idx = static_cast<int>(map.keyframes.size());
+  const std::size_t size = features->size();
+  map.keyframes.push_back({frame_idx, world_from_camera, std::move(features), std::vector<int>(size, -1)});
+  for (const Match& match : matches) {
+    map.connect(match.point_id, {keyframe_idx, match.feature_idx});
+    map.refresh_point(match.point_id);
+  }
+  cull_recent_points(map, keyframe_idx);
+  create_points(map, keyframe_idx, pinhole);
+  std::vector<int> neighbours;
+  for (const auto& [shared, other] : map.covisible(keyframe_idx, kLeastShared))
+    if (static_cast<int>(neighbours.size()) < kNeighbours) neighbours.push_back(other);
+  for (const int other : neighbours) fuse_into(map, other, points_of(map, {keyframe_idx}), pinhole);
+  fuse_into(map, keyframe_idx, points_of(map, neighbours), pinhole);
+  if (!neighbours.empty()) adjust_around(map, keyframe_idx, pinhole);
+  return keyframe_idx;
+}
+
+}  // namespace sediment::track

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipeline/scene/camera.hpp"
+#include "pipeline/scene/frame.hpp"
+#include "pipeline/scene/trajectory.hpp"
+#include "stages/track/parameters.hpp"
+
+namespace sediment::track {
+
+/// A recording, frame by frame. Both functions are called from several threads.
+struct Recording {
+  Camera camera;
+  std::vector<std::string> stamps;
+  std::vector<double> stamps_s;
+  std::function<Frame(std::size_t frame_idx)> frame;
+  std::function<cv::Mat(std::size_t frame_idx)> dynamic_mask;  ///< DynamicValue; may be unset
+};
+
+/// What came out of tracking.
+struct Tracked {
+  Trajectory poses;                   ///< of the frames that have one; the first one's camera is the world
+  std::vector<FrameTracking> frames;  ///< one a frame of the recording
+  std::size_t landmarks = 0;
+};
+
+/// Camera poses of a recording from its ORB features: front end, map, and, after the last frame, an
+/// adjustment of everything and a pose for every frame from the final map. The same for any number of
+/// threads. Throws std::runtime_error where time does not go forward.
+Tracked track(const Recording& recording, const Parameters& parameters, const std::function<void()>& advance);
+
+/// Tracked frames / frames; 0 without frames.
+double coverage(const std::vector<FrameTracking>& frames);
+
+/// Throws std::runtime_error if less than `min_coverage` of the frames have a pose.
+void require_coverage(const std::vector<FrameTracking>& frames, double min_coverage);
+
+}  // namespace sediment::track

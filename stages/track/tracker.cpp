@@ -1,0 +1,208 @@
+#include "stages/track/tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stages/track/mapping.hpp"
+#include "stages/track/registration.hpp"
+
+namespace sediment::track {
+namespace {
+
+constexpr int kLeastToStart = 50;    // features with depth in the first keyframe
+constexpr int kLeastToFollow = 15;   // inliers that make a first pose
+constexpr int kLeastToAccept = 20;   // inliers that make a pose
+constexpr int kLeastToRecover = 20;  // inliers without any guess of the pose
+constexpr int kLocalKeyframes = 30;
+constexpr double kLongestPrediction_s = 0.5;
+
+}  // namespace
+
+Pose camera_from_world(const TrackedFrame& frame, const Map& map) {
+  return frame.camera_from_reference * map.keyframes[frame.reference_idx].world_from_camera.inverse();
+}
+
+void Tracker::track(double stamp_s, std::shared_ptr<const FrameFeatures> features) {
+  TrackedFrame frame;
+  frame.stamp_s = stamp_s;
+  frame.features = std::move(features);
+  frames_.push_back(std::move(frame));
+  if (map_.keyframes.empty()) {
+    start_map();
+    return;
+  }
+  std::optional<Found> found;
+  if (const auto predicted = predicted_pose()) {
+    found = follow_last_frame(*predicted);
+    if (found) found = match_local_map(*found);
+  }
+  if (!found) {
+    found = recover_from(frames_[last_tracked_].reference_idx);
+    if (found) found = match_local_map(*found);
+  }
+  if (!found) {
+    found = relocalise();
+    if (found) found = match_local_map(*found);
+  }
+  if (found) accept(*found);
+}
+
+bool Tracker::start_map() {
+  TrackedFrame& frame = frames_.back();
+  int with_depth = 0;
+  for (const Feature& feature : frame.features->features()) with_depth += feature.inverse_depth > 0;
+  if (with_depth < kLeastToStart) return false;
+  frame.tracked = frame.keyframe = true;
+  frame.reference_idx =
+      add_keyframe(map_, static_cast<int>(frames_.size()) - 1, {}, frame.features, {}, pinhole_);
+  frame.matches = frame.inliers = with_depth;
+  last_tracked_ = static_cast<int>(frames_.size()) - 1;
+  for (int i = 0; i < static_cast<int>(frame.features->size()); ++i)
+    if (const int point_id = map_.keyframes.back().point_ids[i]; point_id >= 0)
+      last_matches_.push_back({i, point_id});
+  return true;
+}
+
+// Constant velocity, if the last frames are near enough in time to tell it.
+std::optional<Pose> Tracker::predicted_pose() const {
+  const int now = static_cast<int>(frames_.size()) - 1;
+  const TrackedFrame& last = frames_[last_tracked_];
+  const double ahead_s = frames_[now].stamp_s - last.stamp_s;
+  if (ahead_s > kLongestPrediction_s) return {};
+  const Pose last_pose = camera_from_world(last, map_);
+  if (last_tracked_ == 0 || !frames_[last_tracked_ - 1].tracked) return last_pose;
+  const TrackedFrame& before = frames_[last_tracked_ - 1];
+  const double between_s = last.stamp_s - before.stamp_s;
+  if (between_s <= 0 || between_s > kLongestPrediction_s) return last_pose;
+  const Pose motion = last_pose * camera_from_world(before, map_).inverse();
+  const double fraction = std::min(ahead_s / between_s, 3.0);
+  Pose moved;  // the motion repeated `fraction` times
+  for (int i = 0; i < static_cast<int>(fraction); ++i) moved = motion * moved;
+  return interpolate({}, motion, fraction - std::floor(fraction)) * moved * last_pose;
+}
+
+Tracker::Found Tracker::solve(const std::vector<Match>& matches, const Pose& start) const {
+  std::vector<Correspondence> correspondences;
+  for (const Match& match : matches)
+    correspondences.push_back(
+        {map_.points[match.point_id].position,
+         measurement_of(frames_.back().features->feature(match.feature_idx), pinhole_)});
+  Found found;
+  found.estimate = estimate_pose(correspondences, pinhole_, start);
+  found.tried = static_cast<int>(matches.size());
+  for (std::size_t i = 0; i < matches.size(); ++i)
+    if (found.estimate.inlier[i]) found.matches.push_back(matches[i]);
+  return found;
+}
+
+std::optional<Tracker::Found> Tracker::follow_last_frame(const Pose& predicted) const {
+  const FrameFeatures& features = *frames_.back().features;
+  const FrameFeatures& last = *frames_[last_tracked_].features;
+  const std::vector<char> none_taken(features.size(), 0);
+  std::vector<Target> targets;
+  for (const Match& match : last_matches_) {
+    const MapPoint& point = map_.points[match.point_id];
+    if (point.removed) continue;
+    const Vec3 p = predicted * point.position;
+    if (p.z < 0.1) continue;
+    targets.push_back({match.point_id, pinhole_.project(p), 1 / p.z, last.feature(match.feature_idx).octave,
+                       &last.descriptor(match.feature_idx)});
+  }
+  for (const double radius_px : {15.0, 40.0}) {
+    const auto matches = match_targets(targets, features, none_taken, pinhole_, {radius_px, 100, 0.9});
+    if (static_cast<int>(matches.size()) < kLeastToFollow) continue;
+    Found found = solve(matches, predicted);
+    if (found.estimate.inliers >= kLeastToFollow && 3 * found.estimate.inliers >= found.tried) return found;
+  }
+  return {};
+}
+
+std::optional<Tracker::Found> Tracker::recover_from(int keyframe_idx) const {
+  const Keyframe& keyframe = map_.keyframes[keyframe_idx];
+  std::vector<char> used(keyframe.features->size());
+  for (std::size_t i = 0; i < used.size(); ++i) used[i] = keyframe.point_ids[i] >= 0;
+  std::vector<Match> matches;
+  std::vector<Correspondence> correspondences;
+  for (const auto& [first, second] : match_descriptors(*keyframe.features, used, *frames_.back().features)) {
+    matches.push_back({second, keyframe.point_ids[first]});
+    correspondences.push_back({map_.points[matches.back().point_id].position,
+                               measurement_of(frames_.back().features->feature(second), pinhole_)});
+  }
+  const auto estimate = find_pose(correspondences, pinhole_, kLeastToRecover);
+  if (!estimate) return {};
+  Found found{*estimate, {}, static_cast<int>(matches.size())};
+  for (std::size_t i = 0; i < matches.size(); ++i)
+    if (estimate->inlier[i]) found.matches.push_back(matches[i]);
+  return found;
+}
+
+std::optional<Tracker::Found> Tracker::relocalise() const {
+  for (int keyframe_idx = static_cast<int>(map_.keyframes.size()) - 1; keyframe_idx >= 0; --keyframe_idx)
+    if (auto found = recover_from(keyframe_idx)) return found;
+  return {};
+}
+
+std::optional<Tracker::Found> Tracker::match_local_map(const Found& start) {
+  std::vector<int> votes(map_.keyframes.size(), 0);
+  for (const Match& match : start.matches)
+    for (const Sighting& sighting : map_.points[match.point_id].sightings) ++votes[sighting.keyframe_idx];
+  std::vector<std::pair<int, int>> ranked;
+  for (int i = 0; i < static_cast<int>(votes.size()); ++i)
+    if (votes[i] > 0) ranked.emplace_back(-votes[i], -i);
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<int> local;
+  for (const auto& [vote, minus_idx] : ranked)
+    if (static_cast<int>(local.size()) < kLocalKeyframes) local.push_back(-minus_idx);
+  if (local.empty()) return {};
+
+  const FrameFeatures& features = *frames_.back().features;
+  std::vector<Match> matches = start.matches;
+  std::vector<char> taken(features.size(), 0), matched(map_.points.size(), 0);
+  for (const Match& match : matches) taken[match.feature_idx] = matched[match.point_id] = 1;
+  std::vector<int> others;
+  for (const int point_id : points_of(map_, local))
+    if (!matched[point_id]) others.push_back(point_id);
+  const auto targets = visible_targets(map_, others, pinhole_, start.estimate.camera_from_world);
+  const auto more = match_targets(targets, features, taken, pinhole_, {8, 90, 0.8});
+  matches.insert(matches.end(), more.begin(), more.end());
+  Found found = solve(matches, start.estimate.camera_from_world);
+  for (const Target& target : targets) ++map_.points[target.point_id].expected;
+  for (const Match& match : start.matches) ++map_.points[match.point_id].expected;
+  for (const Match& match : found.matches) ++map_.points[match.point_id].found;
+  frames_.back().reference_idx = local.front();
+  if (found.estimate.inliers < kLeastToAccept) return {};
+  return found;
+}
+
+bool Tracker::wants_keyframe(const Found& found) const {
+  const TrackedFrame& frame = frames_.back();
+  const Keyframe& reference = map_.keyframes[frame.reference_idx];
+  int reference_points = 0;
+  for (const int point_id : reference.point_ids)
+    reference_points += point_id >= 0 && map_.points[point_id].sightings.size() > 1;
+  const int since = static_cast<int>(frames_.size()) - 1 - map_.keyframes.back().frame_idx;
+  return since >= 20 || found.estimate.inliers < 0.75 * reference_points || found.estimate.inliers < 100;
+}
+
+void Tracker::accept(const Found& found) {
+  TrackedFrame& frame = frames_.back();
+  frame.tracked = true;
+  frame.matches = found.tried;
+  frame.inliers = found.estimate.inliers;
+  frame.residual_px = found.estimate.residual_px;
+  frame.camera_from_reference =
+      found.estimate.camera_from_world * map_.keyframes[frame.reference_idx].world_from_camera;
+  last_tracked_ = static_cast<int>(frames_.size()) - 1;
+  last_matches_ = found.matches;
+  if (!wants_keyframe(found)) return;
+  frame.keyframe = true;
+  frame.reference_idx = add_keyframe(map_, last_tracked_, found.estimate.camera_from_world.inverse(),
+                                     frame.features, found.matches, pinhole_);
+  frame.camera_from_reference = {};
+  last_matches_.clear();
+  const auto& point_ids = map_.keyframes.back().point_ids;
+  for (int i = 0; i < static_cast<int>(point_ids.size()); ++i)
+    if (point_ids[i] >= 0) last_matches_.push_back({i, point_ids[i]});
+}
+
+}  // namespace sediment::track
