@@ -41,7 +41,7 @@ std::vector<float> brute_force(const std::vector<Position>& points, std::size_t 
 
 TEST_CASE("mean neighbour distances are those of all pairs") {
   const std::size_t k = GENERATE(1u, 2u, 7u, 50u, 333u);
-  for (const auto& [name, cloud] : test::awkward_clouds(3000, 4)) {
+  for (const auto& [name, cloud] : test::awkward_clouds(1500, 4)) {
     INFO(name << ", k = " << k);
     const std::vector<Position> points = positions_of(cloud);
     const std::vector<float> expected = brute_force(points, k), found = mean_neighbor_distances(points, k);

@@ -21,7 +21,8 @@ TEST_CASE("the stage voxel writes equal bytes with 1 and with 4 threads") {
   std::filesystem::create_directories(folder / "in");
   LabelledCloud cloud(30000, LabelledPoint{});
   for (std::size_t i = 0; i < cloud.size(); ++i)
-    cloud[i].x = static_cast<float>(i % 173) * 0.01f, cloud[i].y = static_cast<float>(i % 59) * 0.01f;
+    cloud[i].x = (static_cast<float>(i % 173) + 0.5f) * 0.01f,
+    cloud[i].y = (static_cast<float>(i % 59) + 0.5f) * 0.01f;
   write_cloud(folder / "in", cloud, default_labels(), PcdEncoding::binary);
   const std::string in = "--cloud " + (folder / "in").string();
   REQUIRE(run(in + " --leaf 0.01 --threads 1 --out " + (folder / "one").string()) == 0);
