@@ -105,7 +105,7 @@ while [ $# -gt 0 ]; do
     -*) wrong_call "unknown flag $1" ;;
     *)
       name=$(canonical "$1")
-      known_names | grep -qxF "$name" || wrong_call "unknown sequence $1; --list names all"
+      grep -qxF "$name" <<<"$(known_names)" || wrong_call "unknown sequence $1; --list names all"
       names+=("$name") ;;
   esac
   shift

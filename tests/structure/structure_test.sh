@@ -72,7 +72,7 @@ misnamed_stages() {
   local stage name
   for stage in $(folders_of stages); do
     name=$(basename "$stage")
-    "$bin/$name" --describe 2>/dev/null | grep -qE "\"stage\": *\"$name\"" || echo "$stage: bin/$name does not say that it is $name"
+    "$bin/$name" --describe 2>/dev/null | grep -E "\"stage\": *\"$name\"" >/dev/null || echo "$stage: bin/$name does not say that it is $name"
   done
 }
 heavy_libraries() { (ldd "$bin/sediment" || echo "cannot be read: $bin/sediment, opencv?") | grep -iE 'opencv|pcl|octomap|vtk|onnx|ceres|yolo'; }

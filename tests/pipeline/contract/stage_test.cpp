@@ -98,7 +98,7 @@ TEST_CASE("wrong calls exit with 2 and say what is wrong") {
   CHECK_FALSE(fs::exists(folder / "r"));
 }
 
-TEST_CASE("--describe prints the declaration and --help teaches it") {
+TEST_CASE("a stage prints its declaration with --describe and teaches it with --help") {
   const TemporaryFolder folder;
   const Outcome described = run(folder, "--describe");
   REQUIRE(described.code == 0);
