@@ -1,8 +1,6 @@
 #include "pipeline/artifacts/cloud.hpp"
 
-#include <charconv>
 #include <cstring>
-#include <set>
 #include <stdexcept>
 
 #include "pipeline/artifacts/file_bytes.hpp"
@@ -11,37 +9,6 @@
 
 namespace sediment {
 namespace {
-
-/// VIEWPOINT stays the identity: the points are in the world frame, and some viewers apply it once more.
-/// An ascii rgb is the whole number of its bits, as a float would not survive the text.
-std::string header_of(std::size_t points, PcdEncoding encoding) {
-  const std::string count = std::to_string(points);
-  const char* name = encoding == PcdEncoding::ascii    ? "ascii"
-                     : encoding == PcdEncoding::binary ? "binary"
-                                                       : "binary_compressed";
-  return std::string("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n") +
-         "FIELDS x y z rgb label instance\nSIZE 4 4 4 4 4 4\nTYPE F F F " +
-         (encoding == PcdEncoding::ascii ? "U" : "F") + " U U\nCOUNT 1 1 1 1 1 1\nWIDTH " + count +
-         "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA " + name + "\n";
-}
-
-std::string ascii_body(const LabelledCloud& cloud) {
-  std::string text;
-  char buffer[32];
-  const auto append = [&](auto value, char end) {
-    text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
-    text.push_back(end);
-  };
-  for (const LabelledPoint& point : cloud) {
-    append(point.x, ' ');
-    append(point.y, ' ');
-    append(point.z, ' ');
-    append(std::uint32_t{point.r} << 16 | std::uint32_t{point.g} << 8 | point.b, ' ');
-    append(point.label, ' ');
-    append(point.instance, '\n');
-  }
-  return text;
-}
 
 /// Reads a field of any type as a number.
 double number_at(const PcdField& field, const char* record) {
@@ -108,20 +75,6 @@ LabelledCloud cloud_from(const PcdHeader& header, std::string_view records) {
 
 }  // namespace
 
-void write_pcd(const std::filesystem::path& file, const LabelledCloud& cloud, PcdEncoding encoding) {
-  const std::string header = header_of(cloud.size(), encoding);
-  const std::string_view records(reinterpret_cast<const char*>(cloud.data()),
-                                 cloud.size() * sizeof(LabelledPoint));
-  switch (encoding) {
-    case PcdEncoding::ascii:
-      return write_bytes(file, {header, ascii_body(cloud)});
-    case PcdEncoding::binary:
-      return write_bytes(file, {header, records});
-    case PcdEncoding::binary_compressed:
-      return write_bytes(file, {header, compress_pcd_records(records, {4, 4, 4, 4, 4, 4})});
-  }
-}
-
 LabelledCloud read_pcd(const std::filesystem::path& file) {
   const std::string content = read_bytes(file);
   try {
@@ -131,14 +84,6 @@ LabelledCloud read_pcd(const std::filesystem::path& file) {
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(file.string() + ": " + error.what());
   }
-}
-
-void write_cloud(const std::filesystem::path& folder, const LabelledCloud& cloud, const LabelTable& labels,
-                 PcdEncoding encoding) {
-  write_pcd(folder / "cloud.pcd", cloud, encoding);
-  std::set<std::uint32_t> present;
-  for (const LabelledPoint& point : cloud) present.insert(point.label);
-  write_label_csv(folder / "labels.csv", labels, present);
 }
 
 LabelledCloud read_cloud(const std::filesystem::path& folder) {

@@ -6,6 +6,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "pipeline/artifacts/cloud_writer.hpp"
+#include "pipeline/artifacts/file_bytes.hpp"
 #include "pipeline/artifacts/label_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -51,4 +53,18 @@ TEST_CASE("a cloud survives writing and reading in every encoding, and PCL reads
     REQUIRE(int{read[i].g} == int{cloud[i].g});
     REQUIRE(int{read[i].b} == int{cloud[i].b});
   }
+}
+
+TEST_CASE("a cloud written in pieces has the bytes of one written at once") {
+  const auto encoding = GENERATE(PcdEncoding::ascii, PcdEncoding::binary, PcdEncoding::binary_compressed);
+  const test::TemporaryFolder folder;
+  const LabelledCloud cloud = some_cloud(1000);
+  write_cloud(folder / "whole", cloud, default_labels(), encoding);
+  CloudWriter writer(folder / "pieces", encoding);
+  for (const auto& [from, count] : {std::pair{0, 1}, {1, 0}, {1, 700}, {701, 299}})
+    writer.append(std::span(cloud).subspan(static_cast<std::size_t>(from), static_cast<std::size_t>(count)));
+  CHECK(writer.size() == 1000);
+  writer.finish(default_labels());
+  for (const char* name : {"cloud.pcd", "labels.csv"})
+    CHECK(read_bytes(folder / "pieces" / name) == read_bytes(folder / "whole" / name));
 }
