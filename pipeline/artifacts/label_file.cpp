@@ -16,7 +16,7 @@ Label label_from(const YamlFields& fields) {
   const auto color = fields.require<std::vector<int>>("color");
   if (color.size() != 3) fields.fail(fields.node("color"), "a color is [red, green, blue]");
   for (int i = 0; i < 3; ++i) {
-    if (color[i] < 0 || color[i] > 255) fields.fail(fields.node("color"), "a colour value is 0 .. 255");
+    if (color[i] < 0 || color[i] > 255) fields.fail(fields.node("color"), "a color value is 0 .. 255");
     label.rgb[i] = static_cast<std::uint8_t>(color[i]);
   }
   label.prior_dynamic = fields.get("dynamic", false);

@@ -1,13 +1,13 @@
 #include "pipeline/artifacts/pcd_file.hpp"
 
-#include <pcl/io/lzf.h>
-
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+
+#include "pipeline/artifacts/lzf.hpp"
 
 namespace sediment {
 namespace {
@@ -91,10 +91,7 @@ void unpack_lzf(const PcdHeader& header, std::string_view body, std::string& rec
   if (body.size() >= sizeof sizes) std::memcpy(sizes, body.data(), sizeof sizes);
   if (body.size() < sizeof sizes + sizes[0] || sizes[1] != records.size())
     throw std::runtime_error("truncated: the compressed points are not whole");
-  std::string columns(records.size(), '\0');
-  if (!records.empty() &&
-      pcl::lzfDecompress(body.data() + sizeof sizes, sizes[0], columns.data(), sizes[1]) != sizes[1])
-    throw std::runtime_error("damaged: the compressed points cannot be unpacked");
+  const std::string columns = lzf_decompress(body.substr(sizeof sizes, sizes[0]), records.size());
   std::size_t at = 0;
   for (const PcdField& field : header.fields) {
     const std::size_t bytes = static_cast<std::size_t>(field.bytes) * field.count;
@@ -180,17 +177,13 @@ std::string compress_pcd_records(std::string_view records, const std::vector<std
       std::memcpy(columns.data() + at, records.data() + point + offset, bytes);
     offset += bytes;
   }
-  // LZF grows what it cannot pack by one byte in 32.
-  std::string body(2 * sizeof(std::uint32_t) + columns.size() + columns.size() / 16 + 64, '\0');
-  const std::uint32_t unpacked = static_cast<std::uint32_t>(columns.size());
-  const std::uint32_t packed = columns.empty()
-                                   ? 0
-                                   : pcl::lzfCompress(columns.data(), unpacked, body.data() + 8,
-                                                      static_cast<std::uint32_t>(body.size() - 8));
-  if (packed == 0 && unpacked != 0) throw std::runtime_error("the points cannot be compressed");
-  std::memcpy(body.data(), &packed, 4);
-  std::memcpy(body.data() + 4, &unpacked, 4);
-  body.resize(8 + packed);
+  const std::string packed = lzf_compress(columns);
+  if (packed.size() > std::numeric_limits<std::uint32_t>::max())
+    throw std::runtime_error("the encoding binary_compressed holds less than 4 GiB: use binary");
+  const std::uint32_t sizes[2] = {static_cast<std::uint32_t>(packed.size()),
+                                  static_cast<std::uint32_t>(columns.size())};
+  std::string body(reinterpret_cast<const char*>(sizes), sizeof sizes);
+  body += packed;
   return body;
 }
 
