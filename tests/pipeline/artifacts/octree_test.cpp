@@ -69,7 +69,7 @@ TEST_CASE("an octree file that is cut off or of another kind is refused by name"
   const std::string whole = read_bytes(file);
   std::string expected;
   SECTION("cut off in the nodes") {
-    write_bytes(file, {whole.substr(0, whole.size() - GENERATE(1, 100))});
+    write_bytes(file, {whole.substr(0, whole.size() - std::size_t{GENERATE(1u, 100u)})});
     expected = "truncated";
   }
   SECTION("cut off in the header") {
