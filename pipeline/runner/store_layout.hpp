@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace sediment::runner {
+
+/// The absolute path of a store. Throws contract::UsageError if the folder is there and is no store of this
+/// version.
+std::filesystem::path checked_store(const std::filesystem::path& root);
+
+/// Makes the folders of a store.
+void make_store(const std::filesystem::path& root);
+
+/// The stat memory of this host.
+std::filesystem::path index_file(const std::filesystem::path& root);
+
+/// An id without its algorithm: a file name.
+std::string bare(const std::string& id);
+
+/// FOLDER/ab/cdef...: no folder gets too large.
+std::filesystem::path sharded(const std::filesystem::path& folder, const std::string& id);
+
+/// Name of this machine.
+std::string host_name();
+
+}  // namespace sediment::runner

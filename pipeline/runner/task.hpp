@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sediment::runner {
+
+enum class Outcome { open, kept, ran, failed, blocked, interrupted, skipped };
+
+/// The name of an outcome in tables and records; `open` reads "not run".
+const char* name_of(Outcome outcome);
+
+/// A stage of an instance, in a run.
+struct Task {
+  std::string label;  ///< stage, or instance/stage
+  std::size_t instance_idx = 0, stage_idx = 0;
+  Outcome outcome = Outcome::open;
+  std::string key, object;
+  std::string why;  ///< why it ran, or what went wrong
+  std::string log;  ///< file with what a failed stage said
+  double wall_s = 0;
+  std::uint64_t bytes = 0, peak_bytes = 0;
+  int waits_for = 0;  ///< stages before it that have not ended
+  std::vector<std::size_t> dependents;
+};
+
+}  // namespace sediment::runner
