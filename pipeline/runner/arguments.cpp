@@ -1,6 +1,7 @@
 #include "pipeline/runner/arguments.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 
 #include "pipeline/contract/errors.hpp"
@@ -87,7 +88,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
   Arguments arguments;
   app.set_version_flag("--version", SEDIMENT_VERSION);
   for (const Command& command : kCommands) add_command(app, command, arguments);
-  if (argc > 1 && argv[1][0] != '-' && app.get_subcommand_no_throw(argv[1]) == nullptr)
+  const auto is_first = [&](const Command& command) { return std::string(command.name) == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && std::none_of(std::begin(kCommands), std::end(kCommands), is_first))
     throw UsageError(unknown_command(argv[1]));
   app.require_subcommand(1);
   try {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "pipeline/contract/errors.hpp"
 #include "pipeline/runner/variables.hpp"
@@ -143,10 +143,9 @@ StageEntry read_stage(const YAML::Node& key, const YAML::Node& value, Violations
 
 std::string content_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  std::stringstream text;
-  text << stream.rdbuf();
-  if (!stream || !text) throw UsageError("cannot read the pipeline " + file.string());
-  return text.str();
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (!stream || fs::is_directory(file)) throw UsageError("cannot read the pipeline " + file.string());
+  return text;
 }
 
 }  // namespace

@@ -22,12 +22,17 @@ using contract::UsageError;
 struct SequenceContent {
   fs::path folder, root;
   FileDigests& digests;
-  std::vector<fs::path> lists;
 
-  std::optional<fs::path> file_named(const std::string& text) const {
-    for (const fs::path& base : {folder, root})
-      if (!text.empty() && fs::is_regular_file(base / text)) return base / text;
-    return std::nullopt;
+  /// Digests of the files that a text names, relative to the root or to the YAML file; the text if there is
+  /// none.
+  std::string content_of(const std::string& text) const {
+    std::string content;
+    for (const fs::path& base : {root, folder}) {
+      if (text.empty() || !fs::is_regular_file(base / text)) continue;
+      const std::string digest = digests.of(base / text).digest;
+      if (content != digest) content += digest;
+    }
+    return content.empty() ? text : content;
   }
 
   Json value_of(const YAML::Node& node) {
@@ -42,8 +47,7 @@ struct SequenceContent {
       return map;
     }
     if (!node.IsScalar()) return nullptr;
-    const auto file = file_named(node.Scalar());
-    return file ? digests.of(*file).digest : node.Scalar();
+    return content_of(node.Scalar());
   }
 };
 
@@ -67,16 +71,15 @@ std::string sequence_id(const fs::path& yaml, FileDigests& digests) {
     throw UsageError(yaml.string() + ": " + error.what());
   }
   if (!node.IsMap()) throw UsageError(yaml.string() + ": expected a mapping (root, camera, ...)");
-  SequenceContent content{yaml.parent_path(), yaml.parent_path(), digests, {}};
+  SequenceContent content{yaml.parent_path(), yaml.parent_path(), digests};
   if (node["root"] && node["root"].IsScalar()) content.root = content.folder / node["root"].Scalar();
   node.remove("root");
   std::string text;
   for (const auto& [key, usual] : {std::pair("color", "rgb.txt"), std::pair("depth", "depth.txt")}) {
-    const auto list = content.file_named(node[key] ? node[key].Scalar() : usual);
-    if (!list) continue;  // the stages say it better
-    std::vector<fs::path> images = images_of(*list, content.root);
+    const fs::path list = content.root / (node[key] ? node[key].Scalar() : usual);
+    std::vector<fs::path> images = images_of(list, content.root);
     digests.add(images);
-    text += std::string(key) + ' ' + digests.of(*list).digest + '\n';
+    text += std::string(key) + ' ' + digests.of(list).digest + '\n';
     for (const fs::path& image : images) text += digests.at(image).digest + '\n';
   }
   return contract::digest_bytes(content.value_of(node).dump() + '\n' + text);

@@ -1,0 +1,90 @@
+// A small stage that is whatever its file is called: scan reads a sequence, smooth and thin read and write
+// clouds, chart makes a grid map. Its result is a line of text behind the text of its input.
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include "pipeline/contract/stage.hpp"
+
+using namespace sediment::contract;
+namespace fs = std::filesystem;
+
+namespace {
+
+enum class Manner { plain, loud };
+
+struct Parameters {
+  int neighbors = 50;  ///< the result shows its tens only: 50 and 51 give the same bytes
+  double factor = 0.5;
+  Manner manner = Manner::plain;
+  std::vector<std::string> words;
+  std::string
+      fault;  ///< fail, crash, hang, deaf (to SIGTERM), lie (a manifest that does not match), link, orphan
+  double sleep_s = 0;
+  std::string diary;  ///< file that gets a line per start
+};
+
+std::string content_of(const fs::path& path) {
+  std::stringstream text;
+  text << std::ifstream(fs::is_directory(path) ? path / "text.txt" : path).rdbuf();
+  return text.str();
+}
+
+void misbehave(const std::string& fault, const fs::path& out) {
+  if (fault == "fail") throw std::runtime_error("frame 7: asked to fail");
+  if (fault == "crash") std::abort();
+  if (fault == "hang") std::this_thread::sleep_for(std::chrono::hours(1));
+  if (fault == "link") fs::create_symlink("/etc/hostname", out / "link");
+  if (fault == "deaf") {
+    std::system("trap '' TERM; sleep 3600");
+  }
+  // A grandchild that outlives us and goes on writing into our result.
+  if (fault == "orphan" && fork() == 0) {
+    std::ofstream late(out / "text.txt", std::ios::app);
+    for (int i = 0; i < 100; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      late << "late\n" << std::flush;
+    }
+    _exit(0);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Parameters parameters;
+  const std::string name = fs::path(argv[0]).filename();
+  Stage stage(name, "A stage for tests");
+  const bool scans = name == "scan";
+  stage.reads(scans ? "sequence" : "cloud", scans ? kind::kSequence : kind::kCloud, "what to begin with");
+  if (scans) stage.reads_optional("model", kind::kFile, "a network");
+  if (name == "chart") stage.reads_optional("second", kind::kCloud, "another cloud");
+  stage.writes(name == "chart" ? "grid" : "cloud", name == "chart" ? kind::kGridMap : kind::kCloud,
+               "text.txt");
+  stage.tunes("neighbors", parameters.neighbors, "how many", {1, 100});
+  stage.tunes("factor", parameters.factor, "a number", {0, 1});
+  stage.tunes("manner", parameters.manner, "how", {{"plain", Manner::plain}, {"loud", Manner::loud}});
+  stage.tunes("words", parameters.words, "words");
+  stage.tunes("fault", parameters.fault, "what goes wrong");
+  stage.tunes("sleep_s", parameters.sleep_s, "time to take", {0, 3600});
+  stage.tunes("diary", parameters.diary, "file for notes");
+  const int code = stage.run(argc, argv, [&](Work& work) {
+    if (!parameters.diary.empty()) std::ofstream(parameters.diary, std::ios::app) << name << '\n';
+    std::ofstream out(work.out() / "text.txt");
+    for (const char* role : {"sequence", "model", "cloud", "second"})
+      if (work.has(role)) out << content_of(work.in(role));
+    out << name << ' ' << parameters.neighbors / 10 * 10 << ' ' << parameters.factor << '\n' << std::flush;
+    std::this_thread::sleep_for(std::chrono::duration<double>(parameters.sleep_s));
+    misbehave(parameters.fault, work.out());
+    work.metrics()["neighbors"] = parameters.neighbors / 10 * 10;
+  });
+  for (int i = 1; parameters.fault == "lie" && i + 1 < argc; ++i)
+    if (std::string(argv[i]) == "--out") std::ofstream(fs::path(argv[i + 1]) / "text.txt") << "another";
+  return code;
+}
