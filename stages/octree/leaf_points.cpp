@@ -3,12 +3,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include "stages/octree/radix_sort.hpp"
+#include "pipeline/sorting/radix_sort.hpp"
 
 namespace sediment::octree {
 namespace {
@@ -32,13 +33,47 @@ std::uint16_t gather(std::uint64_t bits) {
   return static_cast<std::uint16_t>(bits | bits >> 16);
 }
 
-LeafPoint leaf_point(const LabelledPoint& point, double resolution_m) {
-  if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
-    return {.code = kNotFinite};
-  return {
-      code_of(key_of(point.x, resolution_m), key_of(point.y, resolution_m), key_of(point.z, resolution_m)),
-      point.b, point.g, point.r, point.label};
+std::uint64_t code_of_point(const LabelledPoint& point, double resolution_m) {
+  if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) return kNotFinite;
+  return code_of(key_of(point.x, resolution_m), key_of(point.y, resolution_m), key_of(point.z, resolution_m));
 }
+
+/// Codes without the bits in which they all agree. A scene is small beside the tree, but the origin is in the
+/// middle of the tree: so it is within each of the eight octants that the upper bits are all the same.
+/// Keeping the octant and the lower bits keeps the order, and the sort has half as many bits to look at.
+class ShortCodes {
+ public:
+  explicit ShortCodes(const std::vector<std::uint64_t>& codes) {
+    std::array<std::uint64_t, 8> any{}, all;
+    all.fill(~std::uint64_t{0});
+    for (const std::uint64_t code : codes) {
+      any[code >> kOctantShift] |= code;
+      all[code >> kOctantShift] &= code;
+    }
+    std::uint64_t varying = 0;
+    for (std::size_t octant = 0; octant < 8; ++octant) {
+      varying |= any[octant] & ~all[octant];
+      upper_[octant] = all[octant];
+    }
+    low_bits_ = std::bit_width(varying);
+    for (std::uint64_t& bits : upper_) bits &= ~low_mask();
+  }
+
+  int bits() const { return low_bits_ + 3; }
+  std::uint64_t shorten(std::uint64_t code) const {
+    return (code >> kOctantShift) << low_bits_ | (code & low_mask());
+  }
+  std::uint64_t restore(std::uint64_t short_code) const {
+    return upper_[short_code >> low_bits_] | (short_code & low_mask());
+  }
+
+ private:
+  static constexpr int kOctantShift = 3 * (kTreeDepth - 1);
+  std::uint64_t low_mask() const { return (std::uint64_t{1} << low_bits_) - 1; }
+
+  int low_bits_ = 0;
+  std::array<std::uint64_t, 8> upper_{};  ///< of each octant: the bits in which its codes agree
+};
 
 }  // namespace
 
@@ -61,12 +96,26 @@ Keys keys_of(std::uint64_t code) {
 }
 
 SortedPoints sort_into_leaves(std::span<const LabelledPoint> cloud, double resolution_m) {
-  SortedPoints sorted;
-  sorted.points.resize(cloud.size());
+  std::vector<std::uint64_t> codes(cloud.size());
   tbb::parallel_for(std::size_t{0}, cloud.size(),
-                    [&](std::size_t i) { sorted.points[i] = leaf_point(cloud[i], resolution_m); });
-  sorted.not_finite = std::erase_if(sorted.points, [](const LeafPoint& p) { return p.code == kNotFinite; });
-  sort_by_code(sorted.points);
+                    [&](std::size_t i) { codes[i] = code_of_point(cloud[i], resolution_m); });
+  std::vector<std::uint32_t> order;
+  order.reserve(cloud.size());
+  for (std::size_t i = 0; i < codes.size(); ++i)
+    if (codes[i] != kNotFinite) order.push_back(static_cast<std::uint32_t>(i));
+  std::erase(codes, kNotFinite);
+
+  const ShortCodes short_codes(codes);
+  for (std::uint64_t& code : codes) code = short_codes.shorten(code);
+  sort_by_key(codes, order, short_codes.bits());
+
+  SortedPoints sorted;
+  sorted.not_finite = cloud.size() - codes.size();
+  sorted.points.resize(codes.size());
+  tbb::parallel_for(std::size_t{0}, codes.size(), [&](std::size_t i) {
+    const LabelledPoint& point = cloud[order[i]];
+    sorted.points[i] = {short_codes.restore(codes[i]), point.b, point.g, point.r, point.label};
+  });
   return sorted;
 }
 
