@@ -11,7 +11,7 @@ namespace sediment::interaction_mask {
 
 struct Parameters {
   double radius_px = 6;       ///< reach of a pixel pair in the image; 6 in the paper
-  double threshold_m = 0.15;  ///< interacting below this mean depth difference; not given in the paper
+  double threshold_m = 0.3;  ///< interacting below this mean depth difference; the paper does not give it
   int min_pairs = 1;          ///< fewer pairs than these decide nothing; the paper has no minimum
   std::vector<std::string> immovable{"wall", "floor", "ceiling"};  ///< classes that no touch sets in motion
 };
