@@ -1,0 +1,10 @@
+#pragma once
+
+#include "tools/synthesize/room.hpp"
+
+namespace sediment::synthetic {
+
+/// Desks with screens, keyboards, cups and books, shelf, cabinet, boxes, door, plant.
+void place_furniture(Workshop& workshop, const RoomStyle& style);
+
+}  // namespace sediment::synthetic

@@ -1,0 +1,102 @@
+#include "tools/synthesize/patterns.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/synthesize/noise_field.hpp"
+#include "tools/synthesize/random.hpp"
+
+namespace sediment::synthetic {
+namespace {
+
+float f(double x) {
+  return static_cast<float>(x);
+}
+
+// Hash of the cell of a grid.
+std::uint64_t cell(std::uint64_t seed, double x, double y) {
+  return hash(seed, static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x))),
+              static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(y))));
+}
+
+}  // namespace
+
+Pattern plaster(std::uint64_t seed, Rgb color, double contrast) {
+  return [=](double u, double v, double texel) {
+    const double clouds = fractal_noise(seed, u, v, 0.6, 0.15);
+    const double grains = fractal_noise(seed + 1, u, v, 0.08, std::max(2 * texel, 0.006), 0.75);
+    // Small marks: a few in each cell of a quarter of a metre.
+    double marks = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double cu = u / 0.17 + k * 0.37, cv = v / 0.17 + k * 0.71;
+      const std::uint64_t h = cell(seed + 7 + k, cu, cv);
+      const double mu = 0.25 + 0.5 * unit(h), mv = 0.25 + 0.5 * unit(mix(h));
+      const double radius = 0.02 + 0.07 * unit(mix(h + 1));
+      const double du = cu - std::floor(cu) - mu,
+                   dv = (cv - std::floor(cv) - mv) * (0.4 + 1.2 * unit(mix(h + 2)));
+      const double edge = (radius - std::hypot(du, dv)) * 0.17 / (1.5 * texel);
+      marks += std::clamp(edge + 0.5, 0.0, 1.0) * (unit(mix(h + 3)) - 0.62);
+    }
+    return f(1 + contrast * (0.05 * clouds + 0.07 * grains + 0.28 * marks)) * color;
+  };
+}
+
+Pattern wood(std::uint64_t seed, Rgb color) {
+  return [=](double u, double v, double texel) {
+    const double bend = 0.05 * fractal_noise(seed, u / 3, v, 0.5, 0.1);
+    const double ring = plane_noise(seed + 1, (v + bend) / 0.025, u / 0.9);
+    const double fibre = fractal_noise(seed + 2, u / 9, v + bend, 0.02, std::max(2 * texel, 0.003), 0.8);
+    const double knot = plane_noise(seed + 3, u / 0.11, v / 0.06);
+    const double dark = knot > 0.62 ? 2.2 * (knot - 0.62) : 0;
+    const double fleck = plane_noise(seed + 4, u / 0.02, v / 0.012);
+    return f(std::clamp(1 + 0.13 * ring + 0.10 * fibre - dark - (fleck > 0.55 ? 0.14 : 0), 0.2, 1.4)) * color;
+  };
+}
+
+Pattern carpet(std::uint64_t seed, Rgb color) {
+  return [=](double u, double v, double texel) {
+    const double tone = 0.12 * (unit(cell(seed, u / 0.5, v / 0.5)) - 0.5);
+    const double pile = fractal_noise(seed + 1, u, v, 0.05, std::max(2 * texel, 0.006), 0.9);
+    const double worn = fractal_noise(seed + 2, u, v, 0.9, 0.2);
+    const double speckle = plane_noise(seed + 3, u / 0.022, v / 0.022);
+    const double du = u / 0.5 - std::floor(u / 0.5), dv = v / 0.5 - std::floor(v / 0.5);
+    const double joint = std::min(std::min(du, 1 - du), std::min(dv, 1 - dv)) < 0.008 ? 0.18 : 0;
+    const double bright = speckle > 0.45 ? 0.32 : speckle < -0.5 ? -0.22 : 0;
+    return f(1 + tone + 0.13 * pile + 0.07 * worn + bright - joint) * color;
+  };
+}
+
+Pattern ceiling_panels(std::uint64_t seed) {
+  return [=](double u, double v, double texel) {
+    const double du = u / 0.6 - std::floor(u / 0.6), dv = v / 0.6 - std::floor(v / 0.6);
+    const double edge = 0.6 * std::min(std::min(du, 1 - du), std::min(dv, 1 - dv));
+    if (edge < 0.012) return edge < 0.004 ? Rgb{.62f, .62f, .60f} : Rgb{.93f, .93f, .92f};
+    const double hole = plane_noise(seed, u / 0.017, v / 0.017);
+    const double stain = fractal_noise(seed + 1, u, v, 0.5, 0.1);
+    const double fine = fractal_noise(seed + 2, u, v, 0.04, std::max(2 * texel, 0.01), 0.8);
+    const double tone = 0.05 * (unit(cell(seed, u / 0.6, v / 0.6)) - 0.5);
+    return f(0.86 + tone + 0.03 * stain + 0.03 * fine - (hole > 0.5 ? 0.2 : 0)) * Rgb{1, 1, .98f};
+  };
+}
+
+Pattern cloth(std::uint64_t seed, Rgb color, int stripes) {
+  return [=](double u, double v, double texel) {
+    const double weave = fractal_noise(seed, u, v, 0.03, std::max(2 * texel, 0.005), 0.9);
+    const double fold = fractal_noise(seed + 1, u, v / 2.5, 0.2, 0.06);
+    double tone = 1 + 0.10 * weave + 0.12 * fold;
+    const double width = 0.035 + 0.03 * unit(mix(seed + 2));
+    const auto band = [&](double x) { return x / width - std::floor(x / width) < 0.42; };
+    if (stripes >= 1 && band(v)) tone *= 0.62;
+    if (stripes >= 2 && band(u)) tone *= 0.70;
+    return f(tone) * color;
+  };
+}
+
+Pattern grain(std::uint64_t seed, double strength) {
+  return [=](double u, double v, double texel) {
+    const double fine = fractal_noise(seed, u, v, 0.06, std::max(2 * texel, 0.005), 0.85);
+    return f(0.93 + strength * fine) * Rgb{1, 1, 1};
+  };
+}
+
+}  // namespace sediment::synthetic

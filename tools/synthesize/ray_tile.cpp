@@ -1,0 +1,134 @@
+#include "tools/synthesize/ray_tile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sediment::synthetic {
+namespace {
+
+constexpr float kNear = 1e-3f;
+
+// The loops below have no branches, so that the compiler makes vector code of them. Contraction to fused
+// multiply-add is off in the whole project: all clones give the same bits.
+#define SEDIMENT_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
+#define SEDIMENT_INLINE inline __attribute__((always_inline))
+
+SEDIMENT_INLINE float lesser(float a, float b) {
+  return a < b ? a : b;
+}
+SEDIMENT_INLINE float greater(float a, float b) {
+  return a > b ? a : b;
+}
+// A direction parallel to a face must not divide by zero.
+SEDIMENT_INLINE float reciprocal(float d) {
+  return 1.f / (std::fabs(d) < 1e-12f ? 1e-12f : d);
+}
+SEDIMENT_INLINE float accept(bool valid, float t) {
+  return valid & (t > kNear) ? t : kFar;
+}
+SEDIMENT_INLINE void keep(RayTile& tile, int i, float t, std::int32_t solid_idx) {
+  const bool nearer = t < tile.depth_m[i];
+  tile.depth_m[i] = nearer ? t : tile.depth_m[i];
+  tile.solid[i] = nearer ? solid_idx : tile.solid[i];
+}
+
+struct Direction {
+  float x, y, z;
+};
+SEDIMENT_INLINE Direction direction_of(const Target& s, float x, float y) {
+  return {s.linear[0] * x + s.linear[1] * y + s.linear[2], s.linear[3] * x + s.linear[4] * y + s.linear[5],
+          s.linear[6] * x + s.linear[7] * y + s.linear[8]};
+}
+
+SEDIMENT_CLONES void cast_box(const Target& s, std::int32_t solid_idx, RayTile& tile) {
+  for (int i = 0; i < RayTile::kRays; ++i) {
+    const Direction d = direction_of(s, tile.x[i], tile.y[i]);
+    const float ix = reciprocal(d.x), iy = reciprocal(d.y), iz = reciprocal(d.z);
+    const float x0 = (-1 - s.origin[0]) * ix, x1 = (1 - s.origin[0]) * ix;
+    const float y0 = (-1 - s.origin[1]) * iy, y1 = (1 - s.origin[1]) * iy;
+    const float z0 = (-1 - s.origin[2]) * iz, z1 = (1 - s.origin[2]) * iz;
+    const float enter = greater(greater(lesser(x0, x1), lesser(y0, y1)), lesser(z0, z1));
+    const float leave = lesser(lesser(greater(x0, x1), greater(y0, y1)), greater(z0, z1));
+    keep(tile, i, accept(enter <= leave, enter), solid_idx);
+  }
+}
+
+// Entry into a ball around (0, 0, centre_z).
+SEDIMENT_INLINE float enter_ball(const Target& s, const Direction& d, float centre_z, float radius) {
+  const float oz = s.origin[2] - centre_z;
+  const float a = d.x * d.x + d.y * d.y + d.z * d.z;
+  const float b = s.origin[0] * d.x + s.origin[1] * d.y + oz * d.z;
+  const float c = s.origin[0] * s.origin[0] + s.origin[1] * s.origin[1] + oz * oz - radius * radius;
+  const float discriminant = b * b - a * c;
+  return accept(discriminant >= 0, (-b - std::sqrt(greater(discriminant, 0))) / a);
+}
+
+// The hull of two balls is convex, so its entry is the first of the entries into the balls and the hits of
+// the cone that touches both: rho * cosine + z * slope = r0 for z in [r0 * slope, length + r1 * slope].
+SEDIMENT_CLONES void cast_capsule(const Target& s, std::int32_t solid_idx, RayTile& tile) {
+  const float r0 = s.size[0], r1 = s.size[1], length = s.size[2];
+  const float slope = (r0 - r1) / length, cosine2 = 1 - slope * slope;
+  const float low = r0 * slope, high = length + r1 * slope;
+  const float rest = r0 - slope * s.origin[2];
+  const float c = s.origin[0] * s.origin[0] + s.origin[1] * s.origin[1] - rest * rest / cosine2;
+  for (int i = 0; i < RayTile::kRays; ++i) {
+    const Direction d = direction_of(s, tile.x[i], tile.y[i]);
+    const float a = d.x * d.x + d.y * d.y - slope * slope * d.z * d.z / cosine2;
+    const float b = s.origin[0] * d.x + s.origin[1] * d.y + rest * slope * d.z / cosine2;
+    const float discriminant = b * b - a * c, root = std::sqrt(greater(discriminant, 0));
+    const float ia = reciprocal(a);
+    const float t0 = (-b - root) * ia, t1 = (-b + root) * ia;
+    const float z0 = s.origin[2] + t0 * d.z, z1 = s.origin[2] + t1 * d.z;
+    const float cone = lesser(accept((discriminant >= 0) & (z0 >= low) & (z0 <= high), t0),
+                              accept((discriminant >= 0) & (z1 >= low) & (z1 <= high), t1));
+    keep(tile, i, lesser(cone, lesser(enter_ball(s, d, 0, r0), enter_ball(s, d, length, r1))), solid_idx);
+  }
+}
+
+SEDIMENT_CLONES void cast_cylinder(const Target& s, std::int32_t solid_idx, RayTile& tile) {
+  const float radius = s.size[0], length = s.size[2];
+  const float c = s.origin[0] * s.origin[0] + s.origin[1] * s.origin[1] - radius * radius;
+  for (int i = 0; i < RayTile::kRays; ++i) {
+    const Direction d = direction_of(s, tile.x[i], tile.y[i]);
+    const float a = greater(d.x * d.x + d.y * d.y, 1e-12f);
+    const float b = s.origin[0] * d.x + s.origin[1] * d.y;
+    const float discriminant = b * b - a * c, root = std::sqrt(greater(discriminant, 0));
+    // Between the side's two planes of entry and exit and between the two caps.
+    const float iz = reciprocal(d.z);
+    const float cap0 = -s.origin[2] * iz, cap1 = (length - s.origin[2]) * iz;
+    const float enter = greater((-b - root) / a, lesser(cap0, cap1));
+    const float leave = lesser((-b + root) / a, greater(cap0, cap1));
+    keep(tile, i, accept((discriminant >= 0) & (enter <= leave), enter), solid_idx);
+  }
+}
+
+}  // namespace
+
+Target target_of(const Solid& solid, const Pose& camera_from_solid) {
+  const Pose solid_from_camera = camera_from_solid.inverse();
+  Target target{solid.shape, {}, {}, {}};
+  const double size[3] = {solid.size.x, solid.size.y, solid.size.z};
+  const double origin[3] = {solid_from_camera.translation.x, solid_from_camera.translation.y,
+                            solid_from_camera.translation.z};
+  for (int row = 0; row < 3; ++row) {
+    const double scale = solid.shape == Shape::box ? 1 / size[row] : row == 1 ? 1 / solid.flatten : 1;
+    target.size[row] = static_cast<float>(size[row]);
+    target.origin[row] = static_cast<float>(scale * origin[row]);
+    for (int col = 0; col < 3; ++col)
+      target.linear[3 * row + col] = static_cast<float>(scale * solid_from_camera.rotation[3 * row + col]);
+  }
+  return target;
+}
+
+void cast(const Target& target, std::int32_t solid_idx, RayTile& tile) {
+  switch (target.shape) {
+    case Shape::box:
+      return cast_box(target, solid_idx, tile);
+    case Shape::capsule:
+      return cast_capsule(target, solid_idx, tile);
+    case Shape::cylinder:
+      return cast_cylinder(target, solid_idx, tile);
+  }
+}
+
+}  // namespace sediment::synthetic

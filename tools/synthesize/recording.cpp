@@ -1,0 +1,118 @@
+#include "tools/synthesize/recording.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <stdexcept>
+
+#include "tools/synthesize/color_sensor.hpp"
+#include "tools/synthesize/depth_sensor.hpp"
+#include "tools/synthesize/random.hpp"
+
+namespace sediment::synthetic {
+namespace {
+
+constexpr double kFirstStamp = 1000;  // seconds; a round number keeps stamps readable
+
+Settings checked(Settings settings) {
+  if (settings.width < 16 || settings.height < 16 || settings.width > 8192 || settings.height > 8192)
+    throw std::invalid_argument("the image size must be 16 .. 8192 pixels a side");
+  if (settings.frames < 0) throw std::invalid_argument("the number of frames must be above 0");
+  if (!(settings.rate_hz > 0)) throw std::invalid_argument("the frame rate must be above 0");
+  if (settings.frames == 0)
+    for (const Title& title : titles())
+      if (title.name == settings.scene) settings.frames = title.default_frames;
+  return settings;
+}
+
+/// Boxes and ids of the instances in an image of body ids.
+InstanceMask instances_of(const Scene& scene, const cv::Mat& bodies) {
+  InstanceMask mask{cv::Mat(bodies.size(), CV_16UC1, cv::Scalar(0)), {}};
+  std::map<int, Instance> found;
+  for (int v = 0; v < bodies.rows; ++v)
+    for (int u = 0; u < bodies.cols; ++u) {
+      const int id = bodies.at<std::uint16_t>(v, u);
+      if (id == 0 || !scene.bodies[static_cast<std::size_t>(id - 1)].instance) continue;
+      mask.ids.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(id);
+      const auto [it, fresh] = found.try_emplace(id);
+      auto& b = it->second.box_px;
+      if (fresh) b = {double(u), double(v), double(u + 1), double(v + 1)};
+      b = {std::min(b[0], double(u)), std::min(b[1], double(v)), std::max(b[2], double(u + 1)),
+           std::max(b[3], double(v + 1))};
+    }
+  for (auto& [id, instance] : found) {
+    instance.id = id;
+    instance.class_name = scene.bodies[static_cast<std::size_t>(id - 1)].class_name;
+    mask.instances.push_back(instance);
+  }
+  return mask;
+}
+
+}  // namespace
+
+Camera camera_for(int width, int height) {
+  Camera camera;
+  const double scale = width / 640.0;
+  camera.width = width, camera.height = height;
+  camera.fx = 535.4 * scale, camera.fy = 539.2 * scale;
+  // Pixel centres are at integers: the image's middle is at (width - 1) / 2.
+  camera.cx = (width - 1) / 2.0 + 0.6 * scale, camera.cy = (height - 1) / 2.0 + 8.1 * scale;
+  return camera;
+}
+
+Recording::Recording(const Settings& settings)
+    : settings_(checked(settings)),
+      camera_(camera_for(settings.width, settings.height)),
+      play_(stage_play(settings_.scene, settings_.seed, settings_.frames / settings_.rate_hz,
+                       0.9 / camera_.fx)),
+      renderer_(camera_) {}
+
+double Recording::time_s(std::size_t frame_idx) const {
+  return static_cast<double>(frame_idx) / settings_.rate_hz;
+}
+
+std::string Recording::stamp(std::size_t frame_idx) const {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6f", kFirstStamp + time_s(frame_idx));
+  return text;
+}
+
+RecordedFrame Recording::frame(std::size_t frame_idx) const {
+  const double t = time_s(frame_idx);
+  const std::uint64_t frame_seed = hash(settings_.seed, 1000 + frame_idx);
+  RecordedFrame out;
+  out.frame.frame_idx = frame_idx;
+  out.frame.stamp = stamp(frame_idx);
+  out.frame.stamp_s = std::stod(out.frame.stamp);
+  out.world_from_camera = play_.motion(t);
+  const Moment moment = moment_of(play_.scene, t);
+  out.exact = renderer_.render(play_.scene, moment, out.world_from_camera);
+
+  cv::Mat bodies(out.exact.solid.size(), CV_16UC1, cv::Scalar(0)),
+      loss(bodies.size(), CV_32FC1, cv::Scalar(0));
+  out.dynamic = cv::Mat(bodies.size(), CV_8UC1, cv::Scalar(kStatic));
+  for (int v = 0; v < bodies.rows; ++v)
+    for (int u = 0; u < bodies.cols; ++u) {
+      const int solid_idx = out.exact.solid.at<int>(v, u);
+      if (solid_idx < 0) continue;
+      const PlacedSolid& placed = moment.solids[static_cast<std::size_t>(solid_idx)];
+      const Body& body = play_.scene.bodies[static_cast<std::size_t>(placed.body_idx)];
+      bodies.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(placed.body_idx + 1);
+      if (moment.moving[static_cast<std::size_t>(placed.body_idx)])
+        out.dynamic.at<std::uint8_t>(v, u) =
+            body.mobility == Mobility::person ? kPriorDynamic : kNonPriorDynamic;
+      const int material = placed.solid->materials[out.exact.face.at<std::uint8_t>(v, u)];
+      loss.at<float>(v, u) = play_.scene.materials[static_cast<std::size_t>(material)].depth_loss;
+    }
+  out.instances = instances_of(play_.scene, bodies);
+  out.frame.color = out.exact.color.clone();
+  if (settings_.noise) {
+    expose(out.frame.color, t, settings_.seed, hash(frame_seed, 1));
+    out.frame.depth = measure_depth(out.exact.depth_m, loss, camera_, {}, hash(frame_seed, 2));
+  } else {
+    out.frame.depth = encode_depth(out.exact.depth_m, camera_);
+  }
+  return out;
+}
+
+}  // namespace sediment::synthetic

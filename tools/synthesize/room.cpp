@@ -1,0 +1,94 @@
+#include "tools/synthesize/room.hpp"
+
+#include <numbers>
+
+#include "tools/synthesize/furniture.hpp"
+#include "tools/synthesize/patterns.hpp"
+
+namespace sediment::synthetic {
+namespace {
+
+constexpr double kHalfX = 3, kHalfY = 2.5, kHeight = 2.7, kThick = 0.1;
+
+void build_shell(Workshop& w, const RoomStyle& style) {
+  const double contrast = style.bare ? 0.25 : 1;
+  const auto wall = [&](Rgb color, double width) {
+    return w.sheet(plaster(w.random.next(), color, contrast), width, kHeight, 2.2);
+  };
+  const double x = 2 * kHalfX, y = 2 * kHalfY;
+  const int back = wall({.80f, .79f, .74f}, x), front = wall({.76f, .79f, .80f}, x);
+  const int left = wall({.82f, .76f, .66f}, y), right = wall({.70f, .76f, .74f}, y);
+  const int floor = w.sheet(carpet(w.random.next(), {.36f, .38f, .44f}), x, y, 2.2);
+  const int ceiling = w.sheet(ceiling_panels(w.random.next()), x, y, 3);
+  const double middle = kHeight / 2;
+  w.add("back wall", "wall", false, {box({0, kHalfY + kThick / 2, middle}, {x, kThick, kHeight}, back)});
+  w.add("front wall", "wall", false, {box({0, -kHalfY - kThick / 2, middle}, {x, kThick, kHeight}, front)});
+  w.add("left wall", "wall", false, {box({-kHalfX - kThick / 2, 0, middle}, {kThick, y, kHeight}, left)});
+  w.add("right wall", "wall", false, {box({kHalfX + kThick / 2, 0, middle}, {kThick, y, kHeight}, right)});
+  w.add("floor", "floor", false, {box({0, 0, -kThick / 2}, {x, y, kThick}, floor)});
+  w.add("ceiling", "ceiling", false, {box({0, 0, kHeight + kThick / 2}, {x, y, kThick}, ceiling)});
+  const int skirting = w.plain({.42f, .36f, .30f});
+  w.add("skirting", "other furniture", false,
+        {box({0, kHalfY - 0.008, 0.04}, {x, 0.016, 0.08}, skirting),
+         box({0, -kHalfY + 0.008, 0.04}, {x, 0.016, 0.08}, skirting),
+         box({-kHalfX + 0.008, 0, 0.04}, {0.016, y, 0.08}, skirting),
+         box({kHalfX - 0.008, 0, 0.04}, {0.016, y, 0.08}, skirting)});
+  w.scene.room_low = {-kHalfX, -kHalfY, 0};
+  w.scene.room_high = {kHalfX, kHalfY, kHeight};
+}
+
+void hang_lamps(Workshop& w) {
+  std::vector<Solid> panels;
+  const int tube = w.plain({1.05f, 1.05f, 1.02f});
+  w.material(tube).glow = 1;
+  for (const double x : {-1.5, 1.5})
+    for (const double y : {-1.0, 1.1}) {
+      panels.push_back(
+          box({x, y, kHeight - 0.02}, {1.2, 0.3, 0.04}, w.plain({.8f, .8f, .8f}), kBottom, tube));
+      w.scene.lamps.push_back({{x, y, kHeight - 0.3}, {.42f, .41f, .39f}});
+    }
+  w.add("lamps", "other furniture", false, std::move(panels));
+  w.scene.ambient = {.42f, .43f, .45f};
+}
+
+// Sheets on a wall: `along` runs over the wall, from the left for one who looks at it.
+void hang(Workshop& w, const std::string& name, const Pattern& pattern, double width, double height,
+          Vec3 centre, double yaw) {
+  const int print = w.sheet(pattern, width, height);
+  w.add(name, "poster", false,
+        {box(centre, {width, 0.012, height}, w.plain({.3f, .28f, .26f}), kFront, print, yaw)});
+}
+
+void hang_posters(Workshop& w) {
+  constexpr double kPi = std::numbers::pi;
+  const auto poster_at = [&](double width, double height, Vec3 centre, double yaw) {
+    hang(w, "poster", poster(w.random.next(), width, height), width, height, centre, yaw);
+  };
+  const double back = kHalfY - 0.006, front = -back, side = kHalfX - 0.006;
+  poster_at(0.6, 0.85, {-2.35, back, 1.75}, 0);
+  hang(w, "pin board", pin_board(w.random.next(), 1.3, 0.85), 1.3, 0.85, {-1.15, back, 1.75}, 0);
+  poster_at(0.55, 0.8, {0.05, back, 1.8}, 0);
+  poster_at(0.8, 0.6, {0.95, back, 1.85}, 0);
+  poster_at(0.6, 0.85, {1.85, back, 1.75}, 0);
+  // A sheet's front is -y; a turn by -90 degrees makes it -x, for the wall at +x.
+  poster_at(0.7, 1.0, {side, 0.9, 1.6}, -kPi / 2);
+  poster_at(0.6, 0.85, {side, -0.2, 1.65}, -kPi / 2);
+  hang(w, "pin board", pin_board(w.random.next(), 1.1, 0.8), 1.1, 0.8, {side, -1.5, 1.6}, -kPi / 2);
+  poster_at(0.6, 0.85, {-side, -1.7, 1.65}, kPi / 2);
+  poster_at(0.9, 0.65, {-side, -0.7, 1.7}, kPi / 2);
+  poster_at(0.7, 1.0, {-2.1, front, 1.6}, kPi);
+  poster_at(0.6, 0.85, {-1.1, front, 1.65}, kPi);
+  hang(w, "pin board", pin_board(w.random.next(), 1.2, 0.8), 1.2, 0.8, {0.2, front, 1.6}, kPi);
+  poster_at(0.8, 1.1, {2.4, front, 1.55}, kPi);
+}
+
+}  // namespace
+
+void furnish(Workshop& workshop, const RoomStyle& style) {
+  build_shell(workshop, style);
+  hang_lamps(workshop);
+  if (!style.bare) hang_posters(workshop);
+  place_furniture(workshop, style);
+}
+
+}  // namespace sediment::synthetic

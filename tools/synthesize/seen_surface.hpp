@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "pipeline/scene/labelled_point.hpp"
+#include "tools/synthesize/renderer.hpp"
+
+namespace sediment::synthetic {
+
+/// Remembers which parts of all that never moves were seen, in cells of the surfaces. What was seen does not
+/// depend on the order of the frames.
+class SeenSurface {
+ public:
+  SeenSurface(const Scene& scene, double cell_m);
+
+  /// Adds what `rendering` shows where the sensor gave depth (`depth` not 0). Not safe to call from several
+  /// threads at once.
+  void add(const Rendering& rendering, const cv::Mat& depth);
+
+  /// The middle of every cell seen, in the order of solids and cells, with colour, label and body as
+  /// instance.
+  LabelledCloud cloud(const LabelTable& labels) const;
+
+ private:
+  struct Grid {
+    int body_idx, solid_idx, face;
+    int columns, rows;
+    double cell_u_m, cell_v_m;
+    std::vector<std::uint8_t> seen;
+  };
+  const Scene& scene_;
+  std::vector<Grid> grids_;
+  std::vector<int> first_grid_;  ///< by index into Moment::solids, -1 = may move
+};
+
+}  // namespace sediment::synthetic

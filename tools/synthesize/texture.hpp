@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace sediment::synthetic {
+
+/// A colour as displayed (not linear light), 0 .. 1 a channel.
+struct Rgb {
+  float r = 0, g = 0, b = 0;
+
+  friend Rgb operator+(Rgb a, Rgb c) { return {a.r + c.r, a.g + c.g, a.b + c.b}; }
+  friend Rgb operator*(float s, Rgb a) { return {s * a.r, s * a.g, s * a.b}; }
+  friend Rgb operator*(Rgb a, Rgb c) { return {a.r * c.r, a.g * c.g, a.b * c.b}; }
+};
+
+inline Rgb blend(Rgb from, Rgb to, double fraction) {
+  const float f = static_cast<float>(fraction);
+  return (1 - f) * from + f * to;
+}
+
+/// What is painted on a surface: the colour at a place in metres from the surface's corner (u right, v down
+/// as one looks at it). Details finer than `texel_m` must be left out.
+using Pattern = std::function<Rgb(double u_m, double v_m, double texel_m)>;
+
+/// How far a pixel reaches on a surface: change of (u, v) in metres per pixel to the right and per pixel
+/// down.
+struct Footprint {
+  float du_dx = 0, dv_dx = 0, du_dy = 0, dv_dy = 0;
+};
+
+/// A pattern baked into a pyramid of images, so that a pixel sees the mean of its footprint: no aliasing,
+/// which would move features from frame to frame.
+class Texture {
+ public:
+  /// Covers width_m x height_m and repeats beyond (with `repeat`) or continues its border.
+  Texture(const Pattern& pattern, double width_m, double height_m, double texel_m, bool repeat);
+
+  /// Trilinear, with up to four probes along the footprint's longer axis.
+  Rgb sample(float u_m, float v_m, const Footprint& footprint) const;
+  std::size_t bytes() const;
+
+ private:
+  struct Level {
+    int width, height;
+    std::vector<std::array<std::uint8_t, 4>> texels;
+  };
+  Rgb bilinear(const Level& level, float u, float v) const;
+
+  std::vector<Level> levels_;
+  float texels_per_m_u_, texels_per_m_v_;
+  bool repeat_;
+};
+
+}  // namespace sediment::synthetic
