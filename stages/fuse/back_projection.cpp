@@ -1,9 +1,11 @@
 #include "stages/fuse/back_projection.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sediment::fuse {
@@ -33,6 +35,13 @@ std::vector<Paint> paints_of(const InstanceMask& mask, const LabelTable& labels,
       paints[instance.id] = {label->id, label->rgb, static_cast<int>(std::lround(blend * 256))};
   }
   return paints;
+}
+
+/// The range in units of the depth image, both ends included; 0 is no depth and never belongs to it.
+std::pair<int, int> depth_units(const Projection& projection, double depth_scale) {
+  const auto units = [&](double depth_m) { return std::clamp(depth_m * depth_scale, 0.0, 65535.0); };
+  return {std::max(1, static_cast<int>(std::ceil(units(projection.min_depth_m)))),
+          static_cast<int>(std::floor(units(projection.max_depth_m)))};
 }
 
 std::uint8_t mix(std::uint8_t image, std::uint8_t paint, int blend_256) {
@@ -67,6 +76,12 @@ PixelCounts back_project(const View& view, const Camera& camera, std::span<const
   check_size("the dynamic mask", view.dynamic, camera, true);
 
   const std::vector<Paint> paints = paints_of(view.mask, labels, projection.blend);
+  const auto [nearest, farthest] = depth_units(projection, camera.depth_scale);
+  const double unit_m = 1 / camera.depth_scale;
+  const auto per_axis = [&](int pixels) {
+    return static_cast<std::size_t>(1 + (pixels - 1) / projection.pixel_step);
+  };
+  cloud.reserve(cloud.size() + per_axis(camera.width) * per_axis(camera.height));
   PixelCounts counts;
   for (int v = 0; v < camera.height; v += projection.pixel_step) {
     const auto* color = view.color.ptr<cv::Vec3b>(v);
@@ -80,11 +95,11 @@ PixelCounts back_project(const View& view, const Camera& camera, std::span<const
         ++counts.dynamic;
         continue;
       }
-      const double z = depth[u] / camera.depth_scale;
-      if (depth[u] == 0 || z < projection.min_depth_m || z > projection.max_depth_m) {
+      if (depth[u] < nearest || depth[u] > farthest) {
         ++counts.out_of_range;
         continue;
       }
+      const double z = depth[u] * unit_m;
       const std::uint32_t instance = id ? id[u] : 0;
       cloud.push_back(point_of(view.world_from_camera * Vec3{ray[u].x * z, ray[u].y * z, z}, color[u],
                                instance < paints.size() ? paints[instance] : paints[0], instance));
