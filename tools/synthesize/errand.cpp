@@ -26,6 +26,10 @@ Ease ease(double t, double duration) {
   return {speed * (t - ramp / 2), speed};
 }
 
+double lean_of(Arms arms) {
+  return arms == Arms::push ? 0.16 : arms == Arms::pick ? 0.5 : 0.04;
+}
+
 double turned(double from, double to, double fraction) {
   return from + fraction * std::remainder(to - from, 2 * std::numbers::pi);
 }
@@ -72,9 +76,9 @@ Posture Errand::posture(double time_s) const {
       sway(hash(seed_, 13), 0.1, 0.5);
   p.turn_rad = 0.25 * look.at(time_s);
   p.nod_rad = 0.08 + 0.07 * nod.at(time_s);
-  const bool pushes = b.from->arms == Arms::push && b.to->arms == Arms::push;
-  p.lean_rad =
-      (pushes ? 0.16 : 0.04) + 0.03 * sway.at(time_s) + 0.25 * std::sin(std::numbers::pi * p.sitting);
+  p.lean_rad = std::lerp(lean_of(b.from->arms), lean_of(b.to->arms), b.fraction) + 0.03 * sway.at(time_s) +
+               0.25 * std::sin(std::numbers::pi * p.sitting);
+
   const auto before = hands_of(b.from->arms, p, time_s, seed_),
              after = hands_of(b.to->arms, p, time_s, seed_);
   for (int i = 0; i < 2; ++i) p.hands[i] = before[i] + b.fraction * (after[i] - before[i]);

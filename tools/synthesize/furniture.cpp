@@ -139,7 +139,7 @@ void dress_desk(Workshop& w, const Pose& desk, bool two_screens) {
   place_screen(w, on_top(two_screens ? -0.35 : 0.05, 0.15, 0.12));
   if (two_screens) place_screen(w, on_top(0.27, 0.17, -0.15));
   place_keyboard(w, on_top(-0.05, -0.18, w.random.uniform(-0.1, 0.1)));
-  place_cup(w, on_top(0.55, -0.1, 0).translation);
+  place_cup(w, on_top(0.52, 0.2, 0).translation);
   place_bottle(w, on_top(-0.72, 0.05, 0).translation);
   double height = 0;
   for (int k = 0; k < 4; ++k) {
@@ -195,8 +195,7 @@ void place_furniture(Workshop& w, const RoomStyle& style) {
   w.add("box", "box", true, moved(carton(w, {0.5, 0.36, 0.34}), placed({2.6, -0.75, 0}, 1.4)));
   w.add("box", "box", true, moved(carton(w, {0.38, 0.3, 0.26}), placed({2.62, -0.72, 0.34}, 1.9)));
   w.add("box", "box", true, moved(carton(w, {0.42, 0.42, 0.4}), placed({2.7, 0.35, 1.1}, 1.45)));
-  w.add("chair", "chair", true,
-        moved(office_chair(w, {.20f, .30f, .58f}), placed({-1.0, 1.12, 0}, kPi + 0.3)));
+
   place_desk(w, {-1.0, -2.05, 0}, 1.8, kPi);
   if (!style.bare) dress_desk(w, placed({-1.0, -2.05, 0}, kPi), true);
   place_cabinet(w, {1.3, -2.24, 0}, kPi);

@@ -100,26 +100,29 @@ std::array<Vec3, 2> hands_of(Arms arms, const Posture& p, double time_s, std::ui
   for (int i = 0; i < 2; ++i) {
     const double side = i == 0 ? 1 : -1;
     const double swing =
-        -0.5 * p.stride * std::sin(p.stride_phase + (side > 0 ? 0 : 3.14159265358979)) + 0.08;
+        0.10 - 0.36 * p.stride * std::sin(p.stride_phase + (side > 0 ? 0 : 3.14159265358979));
     const BandLimitedNoise a(hash(seed, i, 1), 0.25, 1.2), b(hash(seed, i, 2), 0.25, 1.2),
         c(hash(seed, i, 3), 0.25, 1.2);
+    Vec3& hand = hands[static_cast<std::size_t>(i)];
     switch (arms) {
       case Arms::swing:
-        hands[i] = Vec3{side * 0.26, 0, shoulder} + 0.53 * down_and_forward(swing);
+        hand = Vec3{side * 0.24, 0, shoulder} + 0.545 * down_and_forward(swing);
         break;
       case Arms::push:
-        hands[i] = {side * 0.17, -0.42, 1.04};
+        hand = {side * 0.17, -0.42, 1.04};
+        break;
+      case Arms::pick:
+        hand = {side * 0.19, -0.46, 0.87};
         break;
       case Arms::carry:
-        hands[i] = {side * 0.20, -0.36, 1.02};
+        hand = {side * 0.19, -0.34, 1.02};
         break;
       case Arms::gesture:
-        hands[i] = {side * 0.20 + 0.07 * a.at(time_s), -0.30 + 0.06 * b.at(time_s),
-                    hip + 0.28 + 0.10 * c.at(time_s)};
+        hand = {side * 0.20 + 0.06 * a.at(time_s), -0.30 + 0.05 * b.at(time_s),
+                hip + 0.28 + 0.08 * c.at(time_s)};
         break;
-      case Arms::type:
-        hands[i] = {side * 0.10 + 0.02 * a.at(time_s), -0.44 + 0.015 * b.at(time_s),
-                    0.80 + 0.012 * c.at(time_s)};
+      case Arms::rest:
+        hand = {side * 0.13 + 0.01 * a.at(time_s), -0.30, hip + 0.13 + 0.01 * c.at(time_s)};
         break;
     }
   }

@@ -14,7 +14,7 @@ struct Outfit {
 Outfit dress(Workshop& workshop);
 
 /// What a person does with the arms.
-enum class Arms { swing, push, carry, gesture, type };
+enum class Arms { swing, push, pick, carry, gesture, rest };
 
 /// A person's body at one time, in a frame on the floor below the pelvis: front is -y, z is up.
 struct Posture {

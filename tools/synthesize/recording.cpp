@@ -104,15 +104,25 @@ RecordedFrame Recording::frame(std::size_t frame_idx) const {
       const int material = placed.solid->materials[out.exact.face.at<std::uint8_t>(v, u)];
       loss.at<float>(v, u) = play_.scene.materials[static_cast<std::size_t>(material)].depth_loss;
     }
+  const bool dark = is_dark(frame_idx);
+  if (dark) bodies.setTo(0), out.dynamic.setTo(kStatic);
   out.instances = instances_of(play_.scene, bodies);
-  out.frame.color = out.exact.color.clone();
+
+  out.frame.color = dark ? cv::Mat(bodies.size(), CV_8UC3, cv::Scalar::all(0)) : out.exact.color.clone();
+
   if (settings_.noise) {
     expose(out.frame.color, t, settings_.seed, hash(frame_seed, 1));
     out.frame.depth = measure_depth(out.exact.depth_m, loss, camera_, {}, hash(frame_seed, 2));
   } else {
     out.frame.depth = encode_depth(out.exact.depth_m, camera_);
   }
+  if (dark) out.frame.depth.setTo(0);
   return out;
+}
+
+bool Recording::is_dark(std::size_t frame_idx) const {
+  const double share = (static_cast<double>(frame_idx) + 0.5) / settings_.frames;
+  return share > play_.blackout_from && share < play_.blackout_to;
 }
 
 }  // namespace sediment::synthetic

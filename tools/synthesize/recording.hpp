@@ -47,6 +47,9 @@ class Recording {
   Vec3 accelerometer(double time_s) const { return specific_force(play_.motion, time_s); }
   RecordedFrame frame(std::size_t frame_idx) const;
 
+  /// Nothing reaches the sensor: black image, no depth, nothing in the masks.
+  bool is_dark(std::size_t frame_idx) const;
+
  private:
   Settings settings_;
   Camera camera_;
