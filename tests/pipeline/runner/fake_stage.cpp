@@ -2,8 +2,10 @@
 // clouds, chart makes a grid map. Its result is a line of text behind the text of its input.
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -27,6 +29,7 @@ struct Parameters {
   std::string
       fault;  ///< fail, crash, hang, deaf (to SIGTERM), lie (a manifest that does not match), link, orphan
   double sleep_s = 0;
+  int padding_mb = 0;  ///< size of one more file, written piece by piece over sleep_s
   std::string diary;  ///< file that gets a line per start
 };
 
@@ -34,6 +37,22 @@ std::string content_of(const fs::path& path) {
   std::stringstream text;
   text << std::ifstream(fs::is_directory(path) ? path / "text.txt" : path).rdbuf();
   return text.str();
+}
+
+/// The bytes depend on the name alone. Without padding just sleeps.
+void write_slowly(const fs::path& file, const std::string& name, int megabytes, double seconds) {
+  constexpr int kPieces = 16;
+  std::ofstream out;
+  if (megabytes > 0) out.open(file, std::ios::binary);
+  std::uint64_t state = std::hash<std::string>{}(name);
+  for (int piece = 0; piece < kPieces; ++piece) {
+    std::vector<std::uint64_t> words(static_cast<std::size_t>(megabytes) * 1'000'000 / 8 / kPieces);
+    for (std::uint64_t& word : words) word = state = state * 6364136223846793005u + 1442695040888963407u;
+    out.write(reinterpret_cast<const char*>(words.data()), static_cast<std::streamsize>(8 * words.size()));
+    out.flush();
+    if (megabytes > 0 && !out) throw std::runtime_error("cannot write " + file.string() + ": " + std::strerror(errno));
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds / kPieces));
+  }
 }
 
 void misbehave(const std::string& fault, const fs::path& out) {
@@ -73,6 +92,7 @@ int main(int argc, char** argv) {
   stage.tunes("words", parameters.words, "words");
   stage.tunes("fault", parameters.fault, "what goes wrong");
   stage.tunes("sleep_s", parameters.sleep_s, "time to take", {0, 3600});
+  stage.tunes("padding_mb", parameters.padding_mb, "size of another file", {0, 10000});
   stage.tunes("diary", parameters.diary, "file for notes");
   const int code = stage.run(argc, argv, [&](Work& work) {
     if (!parameters.diary.empty()) std::ofstream(parameters.diary, std::ios::app) << name << '\n';
@@ -80,7 +100,7 @@ int main(int argc, char** argv) {
     for (const char* role : {"sequence", "model", "cloud", "second"})
       if (work.has(role)) out << content_of(work.in(role));
     out << name << ' ' << parameters.neighbors / 10 * 10 << ' ' << parameters.factor << '\n' << std::flush;
-    std::this_thread::sleep_for(std::chrono::duration<double>(parameters.sleep_s));
+    write_slowly(work.out() / "padding.bin", name, parameters.padding_mb, parameters.sleep_s);
     misbehave(parameters.fault, work.out());
     work.metrics()["neighbors"] = parameters.neighbors / 10 * 10;
   });
