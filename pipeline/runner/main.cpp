@@ -1,7 +1,7 @@
 #include <iostream>
 
 #include "pipeline/contract/errors.hpp"
-#include "pipeline/runner/commands.hpp"
+#include "pipeline/runner/commands/commands.hpp"
 
 int main(int argc, char** argv) try {
   using namespace sediment::runner;

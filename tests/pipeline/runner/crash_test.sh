@@ -56,12 +56,10 @@ one_round() {
   sleep "$(printf '%d.%03d' $((delay / 1000)) $((delay % 1000)))"
   strike "$runner" "$2"
   wait "$runner"
-  # The kernel kills the stages of a killed runner; dying takes them a moment.
-  for _ in $(seq 50); do left_over "$out" >/dev/null || break; sleep 0.02; done
-  ! left_over "$out" || { echo "something is left running after killing $2 at $delay ms"; return 1; }
   start_run "$out"
   wait $! || { echo "the rerun after killing $2 at $delay ms failed"; cat "$out.log"; return 1; }
   bytes_of "$out" | cmp - reference.sha256 || { echo "other bytes after killing $2 at $delay ms"; return 1; }
+  ! left_over "$out" || { echo "something is left running after killing $2 at $delay ms"; return 1; }
   [ -z "$(ls -A "$out/.sediment/attempts" "$out/.sediment/locks" | grep -v :)" ] || { echo "leftovers in the store"; return 1; }
   rm -rf "$out" "$out.log"
 }

@@ -30,7 +30,7 @@ struct Parameters {
       fault;  ///< fail, crash, hang, deaf (to SIGTERM), lie (a manifest that does not match), link, orphan
   double sleep_s = 0;
   int padding_mb = 0;  ///< size of one more file, written piece by piece over sleep_s
-  std::string diary;  ///< file that gets a line per start
+  std::string diary;   ///< file that gets a line per start
 };
 
 std::string content_of(const fs::path& path) {
@@ -50,7 +50,8 @@ void write_slowly(const fs::path& file, const std::string& name, int megabytes, 
     for (std::uint64_t& word : words) word = state = state * 6364136223846793005u + 1442695040888963407u;
     out.write(reinterpret_cast<const char*>(words.data()), static_cast<std::streamsize>(8 * words.size()));
     out.flush();
-    if (megabytes > 0 && !out) throw std::runtime_error("cannot write " + file.string() + ": " + std::strerror(errno));
+    if (megabytes > 0 && !out)
+      throw std::runtime_error("cannot write " + file.string() + ": " + std::strerror(errno));
     std::this_thread::sleep_for(std::chrono::duration<double>(seconds / kPieces));
   }
 }

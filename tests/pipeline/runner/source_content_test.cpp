@@ -1,4 +1,4 @@
-#include "pipeline/runner/source_content.hpp"
+#include "pipeline/runner/store/source_content.hpp"
 
 #include <catch2/catch.hpp>
 

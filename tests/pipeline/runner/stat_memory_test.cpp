@@ -1,4 +1,4 @@
-#include "pipeline/runner/stat_memory.hpp"
+#include "pipeline/runner/store/stat_memory.hpp"
 
 #include <catch2/catch.hpp>
 #include <chrono>

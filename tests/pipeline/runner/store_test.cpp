@@ -1,4 +1,4 @@
-#include "pipeline/runner/store.hpp"
+#include "pipeline/runner/store/store.hpp"
 
 #include <catch2/catch.hpp>
 

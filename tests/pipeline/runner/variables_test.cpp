@@ -1,4 +1,4 @@
-#include "pipeline/runner/variables.hpp"
+#include "pipeline/runner/config/variables.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,0 +1,112 @@
+#include "pipeline/runner/commands/arguments.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+
+#include "pipeline/contract/errors.hpp"
+#include "pipeline/runner/config/violations.hpp"
+
+namespace sediment::runner {
+namespace {
+
+namespace fs = std::filesystem;
+using contract::UsageError;
+
+struct Command {
+  const char* name;
+  const char* help;
+};
+
+constexpr Command kCommands[] = {
+    {"run", "Bring the results of a pipeline up to date"},
+    {"plan", "Show what a run would do and why, with the exact calls; runs nothing"},
+    {"why", "Show in what a stage differs from its last result, part by part"},
+    {"graph", "Print the pipeline as text, Mermaid or DOT"},
+    {"status", "Show which results are there; runs nothing"},
+};
+
+void add_selection(CLI::App& app, Arguments& arguments) {
+  app.add_option("--set", arguments.set,
+                 "A value of this run: stage.parameter=value or source=path; repeatable")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  auto* only = app.add_option("--only", arguments.only, "Run this stage alone")->type_name("STAGE");
+  app.add_option("--from", arguments.from, "Run this stage and those behind it")
+      ->type_name("STAGE")
+      ->excludes(only);
+  app.add_option("--until", arguments.until, "Run this stage and those it needs")
+      ->type_name("STAGE")
+      ->excludes(only);
+}
+
+void add_places(CLI::App& app, Arguments& arguments) {
+  app.add_option("--out", arguments.out, "Folder that gets a link to each result [out/<pipeline>]")
+      ->type_name("DIR");
+  app.add_option("--store", arguments.store,
+                 "Folder that holds the results [$SEDIMENT_STORE, else OUT/.sediment]")
+      ->type_name("DIR");
+  app.add_option("--stages", arguments.stages, "Folder of the stages' programs [that of sediment]")
+      ->type_name("DIR");
+  app.add_flag("--rehash", arguments.rehash, "Read every source anew instead of trusting its size and times");
+}
+
+void add_command(CLI::App& root, const Command& command, Arguments& arguments) {
+  CLI::App& app = *root.add_subcommand(command.name, command.help);
+  const std::string name = command.name;
+  app.add_option("config", arguments.config, "Pipeline: a YAML file, or a folder with a pipeline.yaml")
+      ->required();
+  if (name == "why") app.add_option("stage", arguments.stage, "Stage to explain [all]");
+  add_places(app, arguments);
+  add_selection(app, arguments);
+  if (name == "run" || name == "plan")
+    app.add_option("--threads", arguments.threads,
+                   "Threads of each stage, 0 = all cores; never changes a result [0]")
+        ->check(CLI::Range(0, 1024));
+  if (name == "run") {
+    app.add_option("-j,--jobs", arguments.jobs, "Stages that run at the same time, 0 = one per core [0]")
+        ->check(CLI::Range(0, 1024));
+    app.add_flag("-k,--keep-going", arguments.keep_going,
+                 "After a failure go on with what does not depend on it");
+  }
+  if (name == "graph")
+    app.add_option("--format", arguments.format, "text, mermaid or dot [text]")
+        ->check(CLI::IsMember({"text", "mermaid", "dot"}));
+  app.callback([&arguments, name] { arguments.command = name; });
+}
+
+std::string unknown_command(const std::string& name) {
+  std::vector<std::string> known;
+  for (const Command& command : kCommands) known.push_back(command.name);
+  return "unknown command \"" + name + "\"" + did_you_mean(name, known);
+}
+
+}  // namespace
+
+std::optional<Arguments> parse_arguments(int argc, char** argv) {
+  CLI::App app("Runs pipelines of stages; keeps every result that is still right", "sediment");
+  Arguments arguments;
+  app.set_version_flag("--version", SEDIMENT_VERSION);
+  for (const Command& command : kCommands) add_command(app, command, arguments);
+  const auto is_first = [&](const Command& command) { return std::string(command.name) == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && std::none_of(std::begin(kCommands), std::end(kCommands), is_first))
+    throw UsageError(unknown_command(argv[1]));
+  app.require_subcommand(1);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    app.exit(success, std::cout);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+  // `sediment why sor configs/paper` means the same as `sediment why configs/paper sor`.
+  if (arguments.command == "why" && !fs::exists(arguments.config) && fs::exists(arguments.stage)) {
+    const std::string stage = arguments.config.string();
+    arguments.config = arguments.stage;
+    arguments.stage = stage;
+  }
+  return arguments;
+}
+
+}  // namespace sediment::runner

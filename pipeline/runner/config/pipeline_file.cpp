@@ -1,0 +1,185 @@
+#include "pipeline/runner/config/pipeline_file.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "pipeline/contract/errors.hpp"
+#include "pipeline/runner/config/variables.hpp"
+
+namespace sediment::runner {
+namespace {
+
+namespace fs = std::filesystem;
+using contract::Json;
+using contract::UsageError;
+
+int line_of(const YAML::Node& node) {
+  return node.Mark().line + 1;
+}
+
+/// One mapping of the file: hands each known key to its reader; unknown keys, repeated keys (YAML would keep
+/// one of them in silence) and values of another shape are violations.
+class Mapping {
+ public:
+  using Reader = std::function<void(const YAML::Node& key, const YAML::Node& value)>;
+
+  Mapping(std::string what, Violations& violations) : what_(std::move(what)), violations_(violations) {}
+  Mapping& key(const std::string& name, Reader reader) {
+    readers_[name] = std::move(reader);
+    return *this;
+  }
+  /// Reads keys that are names chosen by the user.
+  Mapping& any(Reader reader) {
+    any_ = std::move(reader);
+    return *this;
+  }
+  void read(const YAML::Node& node, int line) const {
+    if (node.IsNull()) return;
+    if (!node.IsMap()) return violations_.add(line, what_ + ": expected a mapping of names to values");
+    std::set<std::string> seen;
+    for (const auto& pair : node) {
+      if (!pair.first.IsScalar()) {
+        violations_.add(line_of(pair.first), what_ + ": a key must be a name");
+        continue;
+      }
+      const std::string name = pair.first.Scalar();
+      if (!seen.insert(name).second)
+        violations_.add(line_of(pair.first), what_ + ": \"" + name + "\" is there twice");
+      else if (const auto known = readers_.find(name); known != readers_.end())
+        known->second(pair.first, pair.second);
+      else if (any_)
+        any_(pair.first, pair.second);
+      else
+        violations_.add(line_of(pair.first),
+                        what_ + ": unknown key \"" + name + "\"" + did_you_mean(name, names()));
+    }
+  }
+
+ private:
+  std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const auto& [name, reader] : readers_) all.push_back(name);
+    return all;
+  }
+
+  std::string what_;
+  Violations& violations_;
+  std::map<std::string, Reader> readers_;
+  Reader any_;
+};
+
+/// Reads a scalar into a text.
+Mapping::Reader text_into(std::string& text, const std::string& what, Violations& violations) {
+  return [&text, &violations, what](const YAML::Node& key, const YAML::Node& value) {
+    if (value.IsScalar())
+      text = value.Scalar();
+    else
+      violations.add(line_of(key), what + ": expected a text for \"" + key.Scalar() + '"');
+  };
+}
+
+SourceEntry read_source(const YAML::Node& key, const YAML::Node& value, Violations& violations) {
+  SourceEntry source{key.Scalar(), "", "", false, line_of(key)};
+  const std::string what = "source " + source.name;
+  Mapping(what, violations)
+      .key("kind", text_into(source.kind, what, violations))
+      .key("path", text_into(source.path, what, violations))
+      .key("optional",
+           [&](const YAML::Node& name, const YAML::Node& flag) {
+             if (!YAML::convert<bool>::decode(flag, source.optional))
+               violations.add(line_of(name), what + ": expected true or false for \"optional\"");
+           })
+      .read(value, source.line);
+  if (source.kind.empty()) violations.add(source.line, what + ": \"kind\" is missing");
+  if (source.path.empty()) violations.add(source.line, what + ": \"path\" is missing");
+  return source;
+}
+
+ParameterEntry read_parameter(const YAML::Node& key, const YAML::Node& value, const std::string& stage,
+                              Violations& violations) {
+  ParameterEntry parameter{key.Scalar(), Json(), line_of(key)};
+  const auto is_text = [](const YAML::Node& item) { return item.IsScalar(); };
+  if (value.IsScalar()) {
+    parameter.value = value.Scalar();
+  } else if (value.IsSequence() && std::all_of(value.begin(), value.end(), is_text)) {
+    parameter.value = Json::array();
+    for (const auto& item : value) parameter.value.push_back(item.Scalar());
+  } else {
+    violations.add(parameter.line, "stage " + stage + ": " + parameter.name + ": expected a value or a list");
+  }
+  return parameter;
+}
+
+StageEntry read_stage(const YAML::Node& key, const YAML::Node& value, Violations& violations) {
+  StageEntry stage{key.Scalar(), {}, {}, line_of(key)};
+  const std::string what = "stage " + stage.name;
+  const auto read_role = [&](const YAML::Node& role, const YAML::Node& from) {
+    ReadEntry read{role.Scalar(), "", line_of(role)};
+    text_into(read.from, what, violations)(role, from);
+    stage.reads.push_back(read);
+  };
+  const auto read_param = [&](const YAML::Node& name, const YAML::Node& item) {
+    stage.params.push_back(read_parameter(name, item, stage.name, violations));
+    if (stage.params.back().value.is_null()) stage.params.pop_back();
+  };
+  Mapping(what, violations)
+      .key("reads",
+           [&](const auto& k, const auto& v) {
+             Mapping(what + " reads", violations).any(read_role).read(v, line_of(k));
+           })
+      .key("params",
+           [&](const auto& k, const auto& v) {
+             Mapping(what + " params", violations).any(read_param).read(v, line_of(k));
+           })
+      .read(value, stage.line);
+  return stage;
+}
+
+std::string content_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (!stream || fs::is_directory(file)) throw UsageError("cannot read the pipeline " + file.string());
+  return text;
+}
+
+}  // namespace
+
+fs::path pipeline_file_of(const fs::path& config) {
+  return fs::is_directory(config) ? config / "pipeline.yaml" : config;
+}
+
+PipelineFile read_pipeline(const fs::path& file, Violations& violations) {
+  PipelineFile pipeline;
+  pipeline.file = file;
+  pipeline.name =
+      (file.filename() == "pipeline.yaml" ? fs::absolute(file).lexically_normal().parent_path() : file)
+          .stem()
+          .string();
+  YAML::Node root;
+  try {
+    root = YAML::Load(mark_variables(content_of(file)));
+  } catch (const YAML::ParserException& error) {
+    throw UsageError(file.string() + ':' + std::to_string(error.mark.line + 1) + ": " + error.msg);
+  }
+  const auto sources = [&](const YAML::Node& key, const YAML::Node& value) {
+    Mapping("sources", violations)
+        .any([&](const auto& k, const auto& v) { pipeline.sources.push_back(read_source(k, v, violations)); })
+        .read(value, line_of(key));
+  };
+  const auto stages = [&](const YAML::Node& key, const YAML::Node& value) {
+    Mapping("stages", violations)
+        .any([&](const auto& k, const auto& v) { pipeline.stages.push_back(read_stage(k, v, violations)); })
+        .read(value, line_of(key));
+  };
+  Mapping("pipeline", violations).key("sources", sources).key("stages", stages).read(root, 1);
+  if (pipeline.stages.empty()) violations.add(1, "the pipeline has no stages");
+  return pipeline;
+}
+
+}  // namespace sediment::runner

@@ -1,0 +1,114 @@
+#include "pipeline/runner/execution/display.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <vector>
+
+namespace sediment::runner {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::steady_clock;
+
+/// How often a pipe hears from stages that run long.
+constexpr auto kReport = 10s;
+constexpr std::size_t kLogLines = 20;
+
+int terminal_width() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80;
+}
+
+/// The last lines of a log, indented.
+std::string end_of_log(const std::string& file) {
+  std::ifstream stream(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  std::string text;
+  for (std::size_t i = lines.size() > kLogLines ? lines.size() - kLogLines : 0; i < lines.size(); ++i)
+    text += "\n  | " + lines[i];
+  return text;
+}
+
+}  // namespace
+
+Display::Display() : terminal_(isatty(STDERR_FILENO) == 1), shown_(steady_clock::now()) {}
+
+void Display::begin(std::size_t tasks) {
+  tasks_ = tasks;
+}
+
+void Display::clear() {
+  if (drawn_) std::fputs("\r\033[K", stderr);
+  drawn_ = false;
+}
+
+void Display::say(const std::string& line) {
+  clear();
+  std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+void Display::started(const Task& task, const Attempt& attempt) {
+  running_.push_back({&task.label, &attempt});
+  say(fmt::format("{}: runs ({})", task.label, task.why));
+}
+
+void Display::stopped(const Task& task) {
+  running_.remove_if([&](const Running& one) { return one.label == &task.label; });
+}
+
+void Display::waits(const Task& task) {
+  if (told_.insert(task.label).second)
+    say(fmt::format("{}: waits for another runner that makes it", task.label));
+}
+
+void Display::ended(const Task& task) {
+  ++ended_;
+  switch (task.outcome) {
+    case Outcome::ran:
+      return say(fmt::format("{}: ran in {:.1f} s [{}/{}]", task.label, task.wall_s, ended_, tasks_));
+    case Outcome::failed:
+      say(fmt::format("{}: FAILED: {}{}", task.label, task.why, end_of_log(task.log)));
+      if (!task.log.empty()) say("  its log: " + task.log);
+      return;
+    case Outcome::interrupted:
+      return say(task.label + ": interrupted");
+    default:
+      return;
+  }
+}
+
+std::string Display::live_line() const {
+  std::string line = fmt::format("[{}/{}]", ended_, tasks_);
+  for (const Running& one : running_) {
+    line += fmt::format("  {} {:.1f} s", *one.label, one.attempt->seconds());
+    const std::string said = one.attempt->last_words();
+    if (!said.empty()) line += " (" + said + ')';
+  }
+  return line.substr(0, static_cast<std::size_t>(terminal_width() - 1));
+}
+
+void Display::tick() {
+  if (running_.empty()) return;
+  if (terminal_) {
+    clear();
+    std::fputs(live_line().c_str(), stderr);
+    std::fflush(stderr);
+    drawn_ = true;
+    return;
+  }
+  const auto now = steady_clock::now();
+  if (now - shown_ < kReport) return;
+  shown_ = now;
+  say(live_line());
+}
+
+void Display::end() {
+  clear();
+}
+
+}  // namespace sediment::runner

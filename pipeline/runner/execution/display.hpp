@@ -1,0 +1,44 @@
+#pragma once
+
+#include <chrono>
+#include <list>
+#include <set>
+#include <string>
+
+#include "pipeline/runner/execution/attempt.hpp"
+#include "pipeline/runner/execution/task.hpp"
+
+namespace sediment::runner {
+
+/// What a run says while it works, on stderr: one live line on a terminal, plain lines in a pipe.
+class Display {
+ public:
+  Display();
+
+  void begin(std::size_t tasks);
+  void started(const Task& task, const Attempt& attempt);
+  void stopped(const Task& task);  ///< it runs no longer; its attempt is about to go
+  void waits(const Task& task);    ///< for the same result, which another runner makes
+  void ended(const Task& task);
+  void tick();
+  void end();
+
+ private:
+  struct Running {
+    const std::string* label;
+    const Attempt* attempt;
+  };
+
+  void say(const std::string& line);
+  void clear();
+  std::string live_line() const;
+
+  bool terminal_;
+  bool drawn_ = false;
+  std::size_t tasks_ = 0, ended_ = 0;
+  std::list<Running> running_;
+  std::set<std::string> told_;  ///< labels that wait and were reported
+  std::chrono::steady_clock::time_point shown_;
+};
+
+}  // namespace sediment::runner

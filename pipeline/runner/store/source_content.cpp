@@ -1,0 +1,125 @@
+#include "pipeline/runner/store/source_content.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "pipeline/contract/description.hpp"
+#include "pipeline/contract/digest.hpp"
+#include "pipeline/contract/errors.hpp"
+#include "pipeline/contract/manifest.hpp"
+
+namespace sediment::runner {
+namespace {
+
+namespace fs = std::filesystem;
+using contract::Json;
+using contract::UsageError;
+
+/// A sequence's YAML while its paths are replaced by what they point at.
+struct SequenceContent {
+  fs::path folder, root;
+  FileDigests& digests;
+
+  /// Digests of the files that a text names, relative to the root or to the YAML file; the text if there is
+  /// none.
+  std::string content_of(const std::string& text) const {
+    std::string content;
+    for (const fs::path& base : {root, folder}) {
+      if (text.empty() || !fs::is_regular_file(base / text)) continue;
+      const std::string digest = digests.of(base / text).digest;
+      if (content != digest) content += digest;
+    }
+    return content.empty() ? text : content;
+  }
+
+  Json value_of(const YAML::Node& node) {
+    if (node.IsSequence()) {
+      Json list = Json::array();
+      for (const auto& item : node) list.push_back(value_of(item));
+      return list;
+    }
+    if (node.IsMap()) {
+      Json map = Json::object();
+      for (const auto& pair : node) map[pair.first.Scalar()] = value_of(pair.second);
+      return map;
+    }
+    if (!node.IsScalar()) return nullptr;
+    return content_of(node.Scalar());
+  }
+};
+
+/// The files named in the second column of a list; '#' begins a comment.
+std::vector<fs::path> images_of(const fs::path& list, const fs::path& root) {
+  std::vector<fs::path> images;
+  std::ifstream stream(list);
+  for (std::string line; std::getline(stream, line);) {
+    std::istringstream words(line);
+    std::string stamp, name;
+    if (words >> stamp >> name && stamp[0] != '#') images.push_back(root / name);
+  }
+  return images;
+}
+
+std::string sequence_id(const fs::path& yaml, FileDigests& digests) {
+  YAML::Node node;
+  try {
+    node = YAML::LoadFile(yaml);
+  } catch (const YAML::Exception& error) {
+    throw UsageError(yaml.string() + ": " + error.what());
+  }
+  if (!node.IsMap()) throw UsageError(yaml.string() + ": expected a mapping (root, camera, ...)");
+  SequenceContent content{yaml.parent_path(), yaml.parent_path(), digests};
+  if (node["root"] && node["root"].IsScalar()) content.root = content.folder / node["root"].Scalar();
+  node.remove("root");
+  std::string text;
+  for (const auto& [key, usual] : {std::pair("color", "rgb.txt"), std::pair("depth", "depth.txt")}) {
+    const fs::path list = content.root / (node[key] ? node[key].Scalar() : usual);
+    std::vector<fs::path> images = images_of(list, content.root);
+    digests.add(images);
+    text += std::string(key) + ' ' + digests.of(list).digest + '\n';
+    for (const fs::path& image : images) text += digests.at(image).digest + '\n';
+  }
+  return contract::digest_bytes(content.value_of(node).dump() + '\n' + text);
+}
+
+std::string folder_id(const fs::path& folder, FileDigests& digests) {
+  contract::Manifest manifest;
+  std::vector<fs::path> files;
+  for (const auto& entry :
+       fs::recursive_directory_iterator(folder, fs::directory_options::follow_directory_symlink)) {
+    if (!entry.is_regular_file()) continue;
+    const std::string name = entry.path().lexically_relative(folder).generic_string();
+    if (name != contract::kManifestName) files.push_back(name);
+  }
+  std::sort(files.begin(), files.end(),
+            [](const fs::path& a, const fs::path& b) { return a.native() < b.native(); });
+  std::vector<fs::path> paths;
+  for (const fs::path& file : files) paths.push_back(folder / file);
+  digests.add(paths);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    manifest.files.push_back({files[i].native(), digests.at(paths[i]).bytes, digests.at(paths[i]).digest});
+  return manifest.id();
+}
+
+}  // namespace
+
+fs::path source_path(const std::string& kind, const fs::path& given) {
+  fs::path path = fs::absolute(given).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  if (!fs::exists(path)) throw UsageError(given.string() + " does not exist");
+  if (kind != contract::kind::kSequence || !fs::is_directory(path)) return path;
+  if (!fs::exists(path / "sequence.yaml"))
+    throw UsageError(given.string() + " is a folder without a sequence.yaml");
+  return path / "sequence.yaml";
+}
+
+std::string source_id(const std::string& kind, const fs::path& path, FileDigests& digests) {
+  if (kind == contract::kind::kSequence) return sequence_id(path, digests);
+  if (fs::is_directory(path)) return folder_id(path, digests);
+  return digests.of(path).digest;
+}
+
+}  // namespace sediment::runner

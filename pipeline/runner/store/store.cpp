@@ -1,0 +1,182 @@
+#include "pipeline/runner/store/store.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "pipeline/contract/errors.hpp"
+#include "pipeline/runner/store/store_layout.hpp"
+
+namespace sediment::runner {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A receipt in the memory: object, bytes, then a line "size path" per file.
+std::string summary_of(const Receipt& receipt) {
+  std::string text = receipt.object + '\n' + std::to_string(receipt.bytes) + '\n';
+  for (const auto& [path, bytes] : receipt.files) text += std::to_string(bytes) + ' ' + path + '\n';
+  return text;
+}
+
+std::string_view next_line(std::string_view& rest) {
+  const std::size_t end = rest.find('\n');
+  const std::string_view line = rest.substr(0, end);
+  rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+  return line;
+}
+
+std::uint64_t number_of(std::string_view text) {
+  std::uint64_t number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+/// Moves into a folder that may be missing.
+bool rename_into(const fs::path& from, const fs::path& to) {
+  if (rename(from.c_str(), to.c_str()) == 0) return true;
+  if (errno != ENOENT) return false;
+  fs::create_directories(to.parent_path());
+  return rename(from.c_str(), to.c_str()) == 0;
+}
+
+}  // namespace
+
+Store::Store(const fs::path& root) : root_(checked_store(root)), memory_(index_file(root_)) {}
+
+void Store::make() const {
+  make_store(root_);
+}
+
+fs::path Store::object_path(const std::string& id) const {
+  return sharded(root_ / "objects", id);
+}
+fs::path Store::receipt_path(const std::string& key) const {
+  return sharded(root_ / "receipts", key).concat(".json");
+}
+
+std::optional<Hit> Store::find(const std::string& key) {
+  const fs::path path = receipt_path(key);
+  const auto stat = stat_of(path);
+  if (!stat) return std::nullopt;
+  std::string summary(memory_.recall(StatMemory::Use::receipt, key, *stat).value_or(""));
+  if (summary.empty()) {
+    const auto read = receipt(key);
+    if (!read) {
+      put_aside(path);
+      return std::nullopt;
+    }
+    summary = summary_of(*read);
+    memory_.remember(StatMemory::Use::receipt, key, *stat, summary, false);
+  }
+  if (!is_whole(summary)) return std::nullopt;
+  std::string_view rest = summary;
+  Hit hit{std::string(next_line(rest)), 0};
+  hit.bytes = number_of(next_line(rest));
+  return hit;
+}
+
+bool Store::is_whole(const std::string& summary) const {
+  std::string_view rest = summary;
+  const fs::path object = object_path(std::string(next_line(rest)));
+  next_line(rest);
+  while (!rest.empty()) {
+    const std::string_view line = next_line(rest);
+    const std::size_t space = line.find(' ');
+    struct stat raw {};
+    const std::string file = object.native() + '/' + std::string(line.substr(space + 1));
+    if (stat(file.c_str(), &raw) == 0 && static_cast<std::uint64_t>(raw.st_size) == number_of(line)) continue;
+    if (fs::exists(object)) put_aside(object);
+    return false;
+  }
+  return true;
+}
+
+std::optional<Receipt> Store::receipt(const std::string& key) const try {
+  std::ifstream stream(receipt_path(key), std::ios::binary);
+  if (!stream) return std::nullopt;
+  std::stringstream text;
+  text << stream.rdbuf();
+  Receipt read = receipt_from(text.str());
+  if (read.key != key) return std::nullopt;
+  return read;
+} catch (const std::exception&) {
+  return std::nullopt;
+}
+
+void Store::put_aside(const fs::path& path) const {
+  fs::create_directories(root_ / "quarantine");
+  for (int count = 0;; ++count) {
+    const fs::path place = root_ / "quarantine" / (path.filename().string() + '.' + std::to_string(count));
+    if (fs::exists(place)) continue;
+    if (rename(path.c_str(), place.c_str()) == 0 || errno == ENOENT) return;
+    throw std::runtime_error("cannot put the damaged " + path.string() + " aside: " + std::strerror(errno));
+  }
+}
+
+std::optional<KeyLock> Store::try_lock(const std::string& key) const {
+  return KeyLock::try_acquire(root_ / "locks" / bare(key));
+}
+
+bool Store::is_locked(const std::string& key) const {
+  const fs::path file = root_ / "locks" / bare(key);
+  return fs::exists(file) && !KeyLock::try_acquire(file);
+}
+
+fs::path Store::make_attempt(const std::string& key) const {
+  static int count = 0;
+  const fs::path folder =
+      root_ / "attempts" / (bare(key) + '.' + std::to_string(getpid()) + '.' + std::to_string(count++));
+  fs::remove_all(folder);
+  fs::create_directory(folder);
+  return folder;
+}
+
+void Store::remove_dead_attempts() const {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(root_ / "attempts", ignored)) {
+    const std::string name = entry.path().filename();
+    const auto lock = KeyLock::try_acquire(root_ / "locks" / name.substr(0, name.find('.')));
+    if (lock) fs::remove_all(entry.path(), ignored);
+  }
+}
+
+void Store::publish_object(const fs::path& folder, const contract::Manifest& manifest) const {
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) chmod(entry.path().c_str(), 0444);
+  const fs::path place = object_path(manifest.id());
+  if (rename_into(folder, place)) return;
+  if (errno != ENOTEMPTY && errno != EEXIST)
+    throw std::runtime_error("cannot publish " + place.string() + ": " + std::strerror(errno));
+  const bool same = std::all_of(manifest.files.begin(), manifest.files.end(), [&](const auto& file) {
+    std::error_code error;
+    return fs::file_size(place / file.path, error) == file.bytes;
+  });
+  if (same && fs::exists(place / contract::kManifestName)) return;
+  put_aside(place);
+  if (!rename_into(folder, place))
+    throw std::runtime_error("cannot publish " + place.string() + ": " + std::strerror(errno));
+}
+
+void Store::publish_receipt(const Receipt& receipt) {
+  const fs::path place = receipt_path(receipt.key);
+  const fs::path fresh = root_ / "attempts" / (bare(receipt.key) + ".receipt." + std::to_string(getpid()));
+  std::ofstream stream(fresh, std::ios::binary);
+  stream << text_of(receipt);
+  stream.close();
+  if (!stream || !rename_into(fresh, place)) {
+    const int error = errno;
+    fs::remove(fresh);
+    throw std::runtime_error("cannot write the receipt " + place.string() + ": " + std::strerror(error));
+  }
+  if (const auto stat = stat_of(place))
+    memory_.remember(StatMemory::Use::receipt, receipt.key, *stat, summary_of(receipt), false);
+}
+
+}  // namespace sediment::runner

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "pipeline/contract/manifest.hpp"
+#include "pipeline/runner/store/key_lock.hpp"
+#include "pipeline/runner/store/receipt.hpp"
+#include "pipeline/runner/store/stat_memory.hpp"
+
+namespace sediment::runner {
+
+/// What a result is known by when its receipt is valid and its files are there with the right sizes.
+struct Hit {
+  std::string object;
+  std::uint64_t bytes = 0;
+};
+
+/// The folder of all results (pipeline/runner/README.md has its layout). Any number of runners may work on it
+/// at the same time.
+class Store {
+ public:
+  /// A store that is absent is empty. Throws contract::UsageError if the folder is no store or of an unknown
+  /// version.
+  explicit Store(const std::filesystem::path& root);
+  /// Makes its folders, if they are absent: before anything is published.
+  void make() const;
+
+  const std::filesystem::path& root() const { return root_; }
+  StatMemory& memory() { return memory_; }
+
+  /// The result of a key, or nothing. A receipt or a result that is damaged is put aside and counts as
+  /// absent.
+  std::optional<Hit> find(const std::string& key);
+  /// The receipt of a key, whether or not its result is still there.
+  std::optional<Receipt> receipt(const std::string& key) const;
+
+  std::optional<KeyLock> try_lock(const std::string& key) const;
+  bool is_locked(const std::string& key) const;
+  /// A new private folder for an attempt at a key. Its lock must be held: what earlier attempts left is
+  /// removed.
+  std::filesystem::path make_attempt(const std::string& key) const;
+  /// Seals a result folder (read-only files) and moves it in. If the content is there already, that one
+  /// stays.
+  void publish_object(const std::filesystem::path& folder, const contract::Manifest& manifest) const;
+  /// Writes the receipt: from now on the key is a hit.
+  void publish_receipt(const Receipt& receipt);
+
+  std::filesystem::path object_path(const std::string& id) const;
+  /// Removes what attempts of runners that died have left.
+  void remove_dead_attempts() const;
+
+ private:
+  std::filesystem::path receipt_path(const std::string& key) const;
+  bool is_whole(const std::string& summary) const;
+  void put_aside(const std::filesystem::path& path) const;
+
+  std::filesystem::path root_;
+  StatMemory memory_;
+};
+
+}  // namespace sediment::runner
