@@ -1,6 +1,5 @@
 #include "pipeline/artifacts/trajectory_file.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -15,6 +14,7 @@ namespace sediment {
 namespace {
 
 constexpr const char* kFormat = "sediment-tracking 1";
+constexpr double kAlike_m = 0.01, kAlike_rad = 0.0175;  ///< poses of a ground truth that are the same
 constexpr const char* kColumns[8] = {"timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw"};
 
 StampedPose pose_from_row(const TextRow& row) {
@@ -24,6 +24,24 @@ StampedPose pose_from_row(const TextRow& row) {
   double v[8];
   for (int i = 0; i < 8; ++i) v[i] = expect_number(row.columns[i], kColumns[i]);
   return {std::string(row.columns[0]), v[0], pose_from({v[4], v[5], v[6], v[7]}, {v[1], v[2], v[3]})};
+}
+
+/// `may_replace(earlier, later)` decides about two poses with one stamp; false is an error.
+template <class MayReplace>
+Trajectory read_poses(const std::filesystem::path& file, const MayReplace& may_replace) {
+  std::map<double, std::pair<int, StampedPose>> poses;  // by stamp, with the line
+  read_rows(file, [&](const TextRow& row) {
+    StampedPose pose = pose_from_row(row);
+    const auto [place, fresh] = poses.try_emplace(pose.stamp_s, row.line, pose);
+    if (fresh) return;
+    if (!may_replace(place->second.second, pose))
+      throw std::runtime_error("stamp " + pose.stamp + " is given twice (first in line " +
+                               std::to_string(place->second.first) + ")");
+    place->second.second = std::move(pose);
+  });
+  Trajectory trajectory;
+  for (auto& [stamp_s, placed] : poses) trajectory.push_back(std::move(placed.second));
+  return trajectory;
 }
 
 std::string line_of(const StampedPose& pose) {
@@ -40,18 +58,18 @@ std::string line_of(const StampedPose& pose) {
 }  // namespace
 
 Trajectory read_tum_trajectory(const std::filesystem::path& file) {
-  Trajectory trajectory;
-  std::map<double, int> line_of_stamp;
-  read_rows(file, [&](const TextRow& row) {
-    trajectory.push_back(pose_from_row(row));
-    const auto [first, fresh] = line_of_stamp.emplace(trajectory.back().stamp_s, row.line);
-    if (!fresh)
-      throw std::runtime_error("stamp " + trajectory.back().stamp + " is given twice (first in line " +
-                               std::to_string(first->second) + ")");
+  return read_poses(file, [](const StampedPose&, const StampedPose&) { return false; });
+}
+
+GroundTruth read_ground_truth(const std::filesystem::path& file) {
+  GroundTruth truth;
+  truth.trajectory = read_poses(file, [&](const StampedPose& earlier, const StampedPose& later) {
+    const Pose difference = earlier.world_from_camera.inverse() * later.world_from_camera;
+    const bool alike = norm(difference.translation) < kAlike_m && rotation_angle(difference) < kAlike_rad;
+    truth.repeated += alike ? 1 : 0;
+    return alike;
   });
-  std::sort(trajectory.begin(), trajectory.end(),
-            [](const StampedPose& a, const StampedPose& b) { return a.stamp_s < b.stamp_s; });
-  return trajectory;
+  return truth;
 }
 
 void write_tum_trajectory(const std::filesystem::path& file, const Trajectory& trajectory) {
@@ -85,6 +103,18 @@ void write_trajectory(const std::filesystem::path& folder, const Trajectory& tra
 
 Trajectory read_trajectory(const std::filesystem::path& folder) {
   return read_tum_trajectory(folder / "trajectory.txt");
+}
+
+std::vector<FrameTracking> read_tracking(const std::filesystem::path& folder) {
+  std::vector<FrameTracking> frames;
+  read_frame_json(folder / "tracking.json", kFormat, [&](const std::string& stamp, const Json& json) {
+    const auto state = json.at("state").get<std::string>();
+    if (state != "tracked" && state != "lost") throw std::runtime_error("unknown state \"" + state + "\"");
+    frames.push_back({stamp, state == "tracked" ? TrackingState::tracked : TrackingState::lost,
+                      json.at("keyframe").get<bool>(), json.value("matches", 0), json.value("inliers", 0),
+                      json.value("residual_px", 0.0)});
+  });
+  return frames;
 }
 
 Trajectory read_keyframes(const std::filesystem::path& folder) {

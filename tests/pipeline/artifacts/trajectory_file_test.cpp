@@ -66,6 +66,21 @@ TEST_CASE("a wrong trajectory is refused with its line") {
   CHECK_THROWS_WITH(read_tum_trajectory(folder / "t.txt"), Contains("t.txt:2: " + expected));
 }
 
+TEST_CASE("of two nearly equal true poses with one stamp the last counts, of two different ones none") {
+  const test::TemporaryFolder folder;
+  const auto file = folder / "groundtruth.txt";
+  write_bytes(file, {"1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n2 0.009 0 0 0 0 0 1\n3 0 0 0 0 0 0 1\n"});
+  const GroundTruth truth = read_ground_truth(file);
+  REQUIRE(truth.trajectory.size() == 3);
+  CHECK(truth.repeated == 1);
+  CHECK(truth.trajectory[1].world_from_camera.translation.x == 0.009);
+  CHECK_THROWS_WITH(read_tum_trajectory(file), Contains(":3: stamp 2 is given twice (first in line 2)"));
+  write_bytes(file, {"1 0 0 0 0 0 0 1\n1 0.011 0 0 0 0 0 1\n"});
+  CHECK_THROWS_WITH(read_ground_truth(file), Contains(":2: stamp 1 is given twice"));
+  write_bytes(file, {"1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0.01 1\n"});
+  CHECK_THROWS_WITH(read_ground_truth(file), Contains(":2: stamp 1 is given twice"));
+}
+
 TEST_CASE("the trajectory folder holds all poses, the keyframes and what tracking says of each frame") {
   const test::TemporaryFolder folder;
   const Trajectory poses = some_poses();
@@ -79,8 +94,13 @@ TEST_CASE("the trajectory folder holds all poses, the keyframes and what trackin
   const Trajectory keyframes = read_keyframes(folder.path());
   REQUIRE(keyframes.size() == 2);
   CHECK(keyframes[1].stamp == poses[3].stamp);
-  const std::string json = read_bytes(folder / "tracking.json");
-  CHECK(json.find("\"state\":\"lost\"") != std::string::npos);
+  const auto tracking = read_tracking(folder.path());
+  REQUIRE(tracking.size() == 6);
+  CHECK(tracking[3].keyframe);
+  CHECK(tracking[3].inliers == 90);
+  CHECK(tracking[4].state == TrackingState::tracked);
+  CHECK(tracking[5].state == TrackingState::lost);
+  CHECK(tracking[5].stamp == "1305031103");
   frames.back().keyframe = true;
   CHECK_THROWS_WITH(write_trajectory(folder.path(), poses, frames),
                     Contains("keyframe 1305031103 has no pose"));
