@@ -11,6 +11,7 @@ int main(int argc, char** argv) try {
   if (arguments->command == "plan") return show_plan(*arguments);
   if (arguments->command == "why") return show_why(*arguments);
   if (arguments->command == "graph") return show_graph(*arguments);
+  if (arguments->command == "verify") return verify_store(*arguments);
   return show_status(*arguments);
 } catch (const sediment::contract::UsageError& error) {
   std::cerr << "sediment: " << error.what() << '\n';

@@ -24,6 +24,7 @@ constexpr Command kCommands[] = {
     {"why", "Show in what a stage differs from its last result, part by part"},
     {"graph", "Print the pipeline as text, Mermaid or DOT"},
     {"status", "Show which results are there; runs nothing"},
+    {"verify", "Check the results in a store by digest; what is damaged is put aside"},
 };
 
 void add_selection(CLI::App& app, Arguments& arguments) {
@@ -51,27 +52,37 @@ void add_places(CLI::App& app, Arguments& arguments) {
   app.add_flag("--rehash", arguments.rehash, "Read every source anew instead of trusting its size and times");
 }
 
+void add_run_flags(CLI::App& app, Arguments& arguments) {
+  app.add_option("-j,--jobs", arguments.jobs, "Stages that run at the same time, 0 = one per core [0]")
+      ->check(CLI::Range(0, 1024));
+  app.add_flag("-k,--keep-going", arguments.keep_going,
+               "After a failure go on with what does not depend on it");
+  app.add_flag("--durable", arguments.durable,
+               "Wait until each result is on the disk (fsync) before it counts");
+  app.add_flag("--no-space-check", arguments.no_space_check,
+               "Begin even if results as large as the last ones would not fit on the disk");
+}
+
 void add_command(CLI::App& root, const Command& command, Arguments& arguments) {
   CLI::App& app = *root.add_subcommand(command.name, command.help);
   const std::string name = command.name;
+  const bool works_on_store = name == "verify";
   app.add_option("config", arguments.config, "Pipeline: a YAML file, or a folder with a pipeline.yaml")
-      ->required();
+      ->required(!works_on_store);
   if (name == "why") app.add_option("stage", arguments.stage, "Stage to explain [all]");
   add_places(app, arguments);
-  add_selection(app, arguments);
+  if (!works_on_store) add_selection(app, arguments);
   if (name == "run" || name == "plan")
     app.add_option("--threads", arguments.threads,
                    "Threads of each stage, 0 = all cores; never changes a result [0]")
         ->check(CLI::Range(0, 1024));
-  if (name == "run") {
-    app.add_option("-j,--jobs", arguments.jobs, "Stages that run at the same time, 0 = one per core [0]")
-        ->check(CLI::Range(0, 1024));
-    app.add_flag("-k,--keep-going", arguments.keep_going,
-                 "After a failure go on with what does not depend on it");
-  }
+  if (name == "run") add_run_flags(app, arguments);
   if (name == "graph")
     app.add_option("--format", arguments.format, "text, mermaid or dot [text]")
         ->check(CLI::IsMember({"text", "mermaid", "dot"}));
+  if (name == "verify")
+    app.add_option("--share", arguments.share, "Share of the results to read, 0 .. 1; picked at random [1]")
+        ->check(CLI::Range(0.0, 1.0));
   app.callback([&arguments, name] { arguments.command = name; });
 }
 

@@ -17,7 +17,8 @@ struct Arguments {
   std::filesystem::path out, store, stages;  ///< empty: their defaults
   int jobs = 0;                              ///< 0 = one per core
   int threads = 0;                           ///< 0 = all cores
-  bool keep_going = false, rehash = false, json = false;
+  bool keep_going = false, rehash = false, durable = false, no_space_check = false, json = false;
+  double share = 1;             ///< of verify
   std::string format = "text";  ///< of graph
 };
 

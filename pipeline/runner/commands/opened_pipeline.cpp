@@ -1,5 +1,6 @@
 #include "pipeline/runner/commands/opened_pipeline.hpp"
 
+#include "pipeline/contract/errors.hpp"
 #include "pipeline/runner/config/variables.hpp"
 #include "pipeline/runner/store/source_content.hpp"
 
@@ -14,6 +15,21 @@ Places places_of(const Arguments& arguments, const std::string& pipeline_name) {
   if (places.store.empty())
     places.store = environment("SEDIMENT_STORE").value_or((places.out / ".sediment").string());
   return places;
+}
+
+fs::path store_of(const Arguments& arguments) {
+  std::string name;
+  if (!arguments.config.empty()) {
+    const fs::path file = pipeline_file_of(arguments.config);
+    Violations ignored(file);
+    name = read_pipeline(file, ignored).name;
+  }
+  const bool is_said =
+      !arguments.store.empty() || !arguments.out.empty() || !name.empty() || environment("SEDIMENT_STORE");
+  if (!is_said) throw contract::UsageError("which store? name a pipeline, --out DIR or --store DIR");
+  fs::path store = places_of(arguments, name).store;
+  if (!fs::exists(store / "VERSION")) throw contract::UsageError(store.string() + " is no store");
+  return store;
 }
 
 OpenedPipeline open_pipeline(const Arguments& arguments) {

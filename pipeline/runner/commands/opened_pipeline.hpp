@@ -16,6 +16,9 @@ struct Places {
 
 Places places_of(const Arguments& arguments, const std::string& pipeline_name);
 
+/// The store of a call that may name no pipeline. Throws contract::UsageError if nothing says where it is.
+std::filesystem::path store_of(const Arguments& arguments);
+
 /// A pipeline that was read, checked against its stages, and whose sources were digested.
 struct OpenedPipeline {
   std::filesystem::path file;

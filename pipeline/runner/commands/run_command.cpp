@@ -60,13 +60,14 @@ int run(const Arguments& arguments) {
   Store& store = *opened.store;
   for (const PlannedStage& stage : opened.instance.graph->stages)
     Workspace(opened.instance.out).check(stage.name);
-  store.make();
+  store.make(arguments.durable);
   store.remove_dead_attempts();
 
   RunOptions options;
   options.jobs = arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::thread::hardware_concurrency());
   options.threads = arguments.threads;
   options.keep_going = arguments.keep_going;
+  options.check_space = !arguments.no_space_check;
   options.logs = store.root() / "runs" / run_id();
   Display display;
   const std::vector<Instance> instances{std::move(opened.instance)};

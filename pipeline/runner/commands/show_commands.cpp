@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include "pipeline/contract/errors.hpp"
-#include "pipeline/runner/commands/closing_table.hpp"
 #include "pipeline/runner/commands/commands.hpp"
 #include "pipeline/runner/commands/opened_pipeline.hpp"
 #include "pipeline/runner/config/graph_text.hpp"
 #include "pipeline/runner/execution/plan.hpp"
+#include "pipeline/runner/execution/text_table.hpp"
 
 namespace sediment::runner {
 namespace {

@@ -3,6 +3,9 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <utility>
+
+#include "pipeline/runner/execution/disk_space.hpp"
 
 namespace sediment::runner {
 namespace {
@@ -12,26 +15,6 @@ constexpr double kGrace_s = 5;
 
 }  // namespace
 
-const char* name_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::open:
-      return "not run";
-    case Outcome::kept:
-      return "kept";
-    case Outcome::ran:
-      return "ran";
-    case Outcome::failed:
-      return "failed";
-    case Outcome::blocked:
-      return "blocked";
-    case Outcome::interrupted:
-      return "interrupted";
-    case Outcome::skipped:
-      return "skipped";
-  }
-  return "";
-}
-
 Scheduler::Scheduler(const std::vector<Instance>& instances, Store& store, RunOptions options,
                      Signals& signals, Display& display)
     : instances_(instances),
@@ -40,31 +23,11 @@ Scheduler::Scheduler(const std::vector<Instance>& instances, Store& store, RunOp
       signals_(signals),
       display_(display) {}
 
-void Scheduler::make_tasks() {
-  for (std::size_t i = 0; i < instances_.size(); ++i) {
-    const Instance& instance = instances_[i];
-    const auto& stages = instance.graph->stages;
-    const std::size_t first = tasks_.size();
-    objects_.emplace_back(stages.size());
-    for (std::size_t s = 0; s < stages.size(); ++s) {
-      Task task;
-      task.label = instance.name.empty() ? stages[s].name : instance.name + '/' + stages[s].name;
-      task.instance_idx = i;
-      task.stage_idx = s;
-      if (!instance.needed[s]) task.outcome = Outcome::skipped;
-      for (const Input& input : stages[s].inputs) {
-        if (input.stage_idx < 0 || !instance.needed[s]) continue;
-        ++task.waits_for;
-        tasks_[first + static_cast<std::size_t>(input.stage_idx)].dependents.push_back(tasks_.size());
-      }
-      if (task.waits_for == 0 && task.outcome == Outcome::open) undecided_.insert(tasks_.size());
-      tasks_.push_back(std::move(task));
-    }
-  }
-}
-
 std::vector<Task> Scheduler::run() {
-  make_tasks();
+  tasks_ = tasks_of(instances_);
+  for (const Instance& instance : instances_) objects_.emplace_back(instance.graph->stages.size());
+  for (std::size_t i = 0; i < tasks_.size(); ++i)
+    if (tasks_[i].waits_for == 0 && tasks_[i].outcome == Outcome::open) undecided_.insert(i);
   display_.begin(static_cast<std::size_t>(std::count_if(
       tasks_.begin(), tasks_.end(), [](const Task& task) { return task.outcome == Outcome::open; })));
   while (true) {
@@ -110,6 +73,7 @@ void Scheduler::launch_ready() {
 }
 
 bool Scheduler::launch(Waiting waiting) {
+  check_space();
   Task& task = tasks_[waiting.task];
   const Instance& instance = instances_[task.instance_idx];
   try {
@@ -132,7 +96,7 @@ bool Scheduler::launch(Waiting waiting) {
     running_.push_back({waiting.task, task.key, std::move(attempt)});
     display_.started(task, *running_.back().attempt);
   } catch (const std::exception& error) {
-    fail(waiting.task, error.what());
+    fail(waiting.task, error.what() + full_disk_note(store_.root()));
     release_followers(task.key);
   }
   return true;
@@ -165,12 +129,15 @@ void Scheduler::publish(Running& running, const Ending& ending) {
   Task& task = tasks_[running.task];
   task.wall_s = running.attempt->seconds();
   task.peak_bytes = ending.peak_bytes;
-  if (interrupted_) return end(running.task, Outcome::interrupted);
+  if (interrupted_) {
+    end(running.task, Outcome::interrupted);
+    return block_dependents(running.task);
+  }
   try {
     const Receipt receipt = running.attempt->finish(ending);
     task.object = receipt.object;
     task.bytes = receipt.bytes;
-    end(running.task, Outcome::ran);
+    succeed(running.task, Outcome::ran);
   } catch (const std::exception& error) {
     std::error_code ignored;
     std::filesystem::create_directories(options_.logs, ignored);
@@ -179,31 +146,40 @@ void Scheduler::publish(Running& running, const Ending& ending) {
     const auto log = options_.logs / (name + ".log");
     std::filesystem::rename(running.attempt->log(), log, ignored);
     if (!ignored) task.log = log;
-    fail(running.task, error.what());
+    fail(running.task, error.what() + full_disk_note(store_.root()));
   }
 }
 
 void Scheduler::keep(std::size_t task_idx, const Hit& hit) {
   tasks_[task_idx].object = hit.object;
   tasks_[task_idx].bytes = hit.bytes;
-  end(task_idx, Outcome::kept);
+  succeed(task_idx, Outcome::kept);
+}
+
+/// A result that is there, made or kept.
+void Scheduler::succeed(std::size_t task_idx, Outcome outcome) {
+  const Task& task = tasks_[task_idx];
+  const Instance& instance = instances_[task.instance_idx];
+  try {
+    Workspace(instance.out).link(instance.graph->stages[task.stage_idx].name, task.object, store_);
+  } catch (const std::exception& error) {
+    return fail(task_idx, std::string("its result cannot be linked: ") + error.what());
+  }
+  end(task_idx, outcome);
+  objects_[task.instance_idx][task.stage_idx] = task.object;
+  for (const std::size_t next : task.dependents)
+    if (--tasks_[next].waits_for == 0) undecided_.insert(next);
 }
 
 void Scheduler::end(std::size_t task_idx, Outcome outcome) {
-  Task& task = tasks_[task_idx];
-  task.outcome = outcome;
-  display_.ended(task);
-  if (outcome != Outcome::kept && outcome != Outcome::ran) return block_dependents(task_idx);
-  const Instance& instance = instances_[task.instance_idx];
-  objects_[task.instance_idx][task.stage_idx] = task.object;
-  Workspace(instance.out).link(instance.graph->stages[task.stage_idx].name, task.object, store_);
-  for (const std::size_t next : task.dependents)
-    if (--tasks_[next].waits_for == 0) undecided_.insert(next);
+  tasks_[task_idx].outcome = outcome;
+  display_.ended(tasks_[task_idx]);
 }
 
 void Scheduler::fail(std::size_t task_idx, const std::string& what) {
   tasks_[task_idx].why = what;
   end(task_idx, Outcome::failed);
+  block_dependents(task_idx);
   if (!options_.keep_going) stopping_ = true;
 }
 
@@ -226,10 +202,28 @@ void Scheduler::release_followers(const std::string& key) {
 }
 
 std::string Scheduler::reason(const Task& task, const Key& key) {
-  const Instance& instance = instances_[task.instance_idx];
-  const auto [record, fresh] = records_.try_emplace(task.instance_idx);
-  if (fresh) record->second = Workspace(instance.out).read_record();
-  return reason_for(key, instance.graph->stages[task.stage_idx].name, record->second, store_).text;
+  const std::string& stage = instances_[task.instance_idx].graph->stages[task.stage_idx].name;
+  return reason_for(key, stage, record(task.instance_idx), store_).text;
+}
+
+const std::map<std::string, StageRecord>& Scheduler::record(std::size_t instance_idx) {
+  const auto [record, fresh] = records_.try_emplace(instance_idx);
+  if (fresh) record->second = Workspace(instances_[instance_idx].out).read_record();
+  return record->second;
+}
+
+/// Before the first stage starts: what is left to do must fit on the disk if it gets as large as it last was.
+void Scheduler::check_space() {
+  if (std::exchange(space_checked_, true) || !options_.check_space) return;
+  std::uint64_t expected = 0;
+  for (const Task& task : tasks_) {
+    const Instance& instance = instances_[task.instance_idx];
+    if (task.outcome != Outcome::open || !instance.selected[task.stage_idx]) continue;
+    const auto& last = record(task.instance_idx);
+    const auto stage = last.find(instance.graph->stages[task.stage_idx].name);
+    if (stage != last.end()) expected += stage->second.bytes;
+  }
+  check_room(store_.root(), expected);
 }
 
 /// The first time the stages are asked to end and given a grace; the second time they are killed.

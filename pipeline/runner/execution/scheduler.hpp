@@ -21,6 +21,7 @@ struct RunOptions {
   int jobs = 1;
   int threads = 0;  ///< given to each stage, 0 = all cores
   bool keep_going = false;
+  bool check_space = true;     ///< refuse to begin if the last results would not fit on the disk
   std::filesystem::path logs;  ///< folder for the logs of failed stages
 };
 
@@ -46,7 +47,6 @@ class Scheduler {
     Key key;
   };
 
-  void make_tasks();
   void decide(std::size_t task);
   bool launch(Waiting waiting);
   void launch_ready();
@@ -54,12 +54,15 @@ class Scheduler {
   void reap_ended();
   void publish(Running& running, const Ending& ending);
   void keep(std::size_t task, const Hit& hit);
+  void succeed(std::size_t task, Outcome outcome);
   void end(std::size_t task, Outcome outcome);
   void fail(std::size_t task, const std::string& what);
   void block_dependents(std::size_t task);
   void release_followers(const std::string& key);
   void interrupt();
   std::string reason(const Task& task, const Key& key);
+  const std::map<std::string, StageRecord>& record(std::size_t instance_idx);
+  void check_space();
 
   const std::vector<Instance>& instances_;
   Store& store_;
@@ -73,8 +76,9 @@ class Scheduler {
   std::deque<Waiting> ready_;
   std::list<Running> running_;
   std::map<std::string, std::vector<std::size_t>> followers_;  ///< by key in work: others that want the same
-  bool locked_out_ = false;                                    ///< another runner holds a lock we want
-  bool stopping_ = false;                                      ///< something failed: start nothing more
+  bool space_checked_ = false;
+  bool locked_out_ = false;  ///< another runner holds a lock we want
+  bool stopping_ = false;    ///< something failed: start nothing more
   bool interrupted_ = false;
 };
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/runner/execution/instance.hpp"
+
 namespace sediment::runner {
 
 enum class Outcome { open, kept, ran, failed, blocked, interrupted, skipped };
@@ -24,5 +26,8 @@ struct Task {
   int waits_for = 0;  ///< stages before it that have not ended
   std::vector<std::size_t> dependents;
 };
+
+/// A task per stage of each instance, instance by instance. What nothing needs is skipped.
+std::vector<Task> tasks_of(const std::vector<Instance>& instances);
 
 }  // namespace sediment::runner

@@ -12,6 +12,7 @@ constexpr std::size_t kShortId = 11;  ///< "x3:" and eight digits
 
 std::string shown(const Json& value) {
   if (value.is_null()) return "none";
+  if (value == "") return "\"\"";
   const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
   return text.starts_with("x3:") ? text.substr(0, kShortId) : text;
 }

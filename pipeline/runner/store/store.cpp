@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "pipeline/contract/errors.hpp"
+#include "pipeline/runner/store/durable.hpp"
 #include "pipeline/runner/store/store_layout.hpp"
 
 namespace sediment::runner {
@@ -38,27 +39,33 @@ std::uint64_t number_of(std::string_view text) {
   return number;
 }
 
-/// Moves into a folder that may be missing.
-bool rename_into(const fs::path& from, const fs::path& to) {
-  if (rename(from.c_str(), to.c_str()) == 0) return true;
-  if (errno != ENOENT) return false;
-  fs::create_directories(to.parent_path());
-  return rename(from.c_str(), to.c_str()) == 0;
+/// Moves into a folder that may be missing. `durable`: the new name is on the disk when it returns.
+bool rename_into(const fs::path& from, const fs::path& to, bool durable) {
+  bool done = rename(from.c_str(), to.c_str()) == 0;
+  if (!done && errno != ENOENT) return false;
+  if (!done) {
+    fs::create_directories(to.parent_path());
+    if (durable) sync_path(to.parent_path().parent_path());
+    done = rename(from.c_str(), to.c_str()) == 0;
+  }
+  if (done && durable) sync_path(to.parent_path());
+  return done;
 }
 
 }  // namespace
 
 Store::Store(const fs::path& root) : root_(checked_store(root)), memory_(index_file(root_)) {}
 
-void Store::make() const {
+void Store::make(bool durable) {
   make_store(root_);
+  durable_ = durable;
 }
 
 fs::path Store::object_path(const std::string& id) const {
-  return sharded(root_ / "objects", id);
+  return root_ / "objects" / object_name(id);
 }
 fs::path Store::receipt_path(const std::string& key) const {
-  return sharded(root_ / "receipts", key).concat(".json");
+  return root_ / "receipts" / (object_name(key) + ".json");
 }
 
 std::optional<Hit> Store::find(const std::string& key) {
@@ -150,8 +157,9 @@ void Store::remove_dead_attempts() const {
 void Store::publish_object(const fs::path& folder, const contract::Manifest& manifest) const {
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file()) chmod(entry.path().c_str(), 0444);
+  if (durable_) sync_tree(folder);
   const fs::path place = object_path(manifest.id());
-  if (rename_into(folder, place)) return;
+  if (rename_into(folder, place, durable_)) return;
   if (errno != ENOTEMPTY && errno != EEXIST)
     throw std::runtime_error("cannot publish " + place.string() + ": " + std::strerror(errno));
   const bool same = std::all_of(manifest.files.begin(), manifest.files.end(), [&](const auto& file) {
@@ -160,7 +168,7 @@ void Store::publish_object(const fs::path& folder, const contract::Manifest& man
   });
   if (same && fs::exists(place / contract::kManifestName)) return;
   put_aside(place);
-  if (!rename_into(folder, place))
+  if (!rename_into(folder, place, durable_))
     throw std::runtime_error("cannot publish " + place.string() + ": " + std::strerror(errno));
 }
 
@@ -170,7 +178,8 @@ void Store::publish_receipt(const Receipt& receipt) {
   std::ofstream stream(fresh, std::ios::binary);
   stream << text_of(receipt);
   stream.close();
-  if (!stream || !rename_into(fresh, place)) {
+  if (stream && durable_) sync_path(fresh);
+  if (!stream || !rename_into(fresh, place, durable_)) {
     const int error = errno;
     fs::remove(fresh);
     throw std::runtime_error("cannot write the receipt " + place.string() + ": " + std::strerror(error));

@@ -24,8 +24,9 @@ class Store {
   /// A store that is absent is empty. Throws contract::UsageError if the folder is no store or of an unknown
   /// version.
   explicit Store(const std::filesystem::path& root);
-  /// Makes its folders, if they are absent: before anything is published.
-  void make() const;
+  /// Makes its folders, if they are absent: before anything is published. `durable`: from now on a result is
+  /// on the disk (fsync) before its receipt is.
+  void make(bool durable = false);
 
   const std::filesystem::path& root() const { return root_; }
   StatMemory& memory() { return memory_; }
@@ -48,16 +49,18 @@ class Store {
   void publish_receipt(const Receipt& receipt);
 
   std::filesystem::path object_path(const std::string& id) const;
+  std::filesystem::path receipt_path(const std::string& key) const;
+  /// Moves something damaged to quarantine/.
+  void put_aside(const std::filesystem::path& path) const;
   /// Removes what attempts of runners that died have left.
   void remove_dead_attempts() const;
 
  private:
-  std::filesystem::path receipt_path(const std::string& key) const;
   bool is_whole(const std::string& summary) const;
-  void put_aside(const std::filesystem::path& path) const;
 
   std::filesystem::path root_;
   StatMemory memory_;
+  bool durable_ = false;
 };
 
 }  // namespace sediment::runner

@@ -52,9 +52,9 @@ std::string bare(const std::string& id) {
   return id.substr(id.find(':') + 1);
 }
 
-fs::path sharded(const fs::path& folder, const std::string& id) {
+std::string object_name(const std::string& id) {
   const std::string name = bare(id);
-  return fs::path(folder.native() + '/' + name.substr(0, 2) + '/' + name.substr(2));
+  return name.substr(0, 2) + '/' + name.substr(2);
 }
 
 std::string host_name() {

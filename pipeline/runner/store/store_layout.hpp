@@ -18,8 +18,8 @@ std::filesystem::path index_file(const std::filesystem::path& root);
 /// An id without its algorithm: a file name.
 std::string bare(const std::string& id);
 
-/// FOLDER/ab/cdef...: no folder gets too large.
-std::filesystem::path sharded(const std::filesystem::path& folder, const std::string& id);
+/// "ab/cdef...": where an object or a receipt lies in its folder, so that no folder gets too large.
+std::string object_name(const std::string& id);
 
 /// Name of this machine.
 std::string host_name();

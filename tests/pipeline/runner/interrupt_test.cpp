@@ -59,15 +59,21 @@ TEST_CASE("what a stage leaves running cannot touch its result") {
   CHECK_THAT(bench.read("out/smooth/text.txt"), !Contains("late"));
 }
 
-TEST_CASE("two runners on one store go on, and each result is made once") {
+TEST_CASE("two and four runners on one store go on, and each result is made once") {
   const Workbench bench;
-  const std::string one = "SEQUENCE=data '" SEDIMENT_BINARY_DIR
-                          "/sediment' run pipeline.yaml --stages stages --store "
-                          "store --set scan.sleep_s=0.5 " +
-                          bench.noted();
-  const auto both = bench.shell(one + "--out out1 & first=$!; " + one +
-                                "--out out2; second=$?; wait $first && exit $second");
-  CHECK(both.code == 0);
+  const int runners = GENERATE(2, 4);
+  std::string command, waits;
+  for (int i = 0; i < runners; ++i) {
+    command += "SEQUENCE=data '" SEDIMENT_BINARY_DIR
+               "/sediment' run pipeline.yaml --stages stages --store store -j2 --set scan.sleep_s=0.3 " +
+               bench.noted() + "--out out" + std::to_string(i) + " & p" + std::to_string(i) + "=$!; ";
+    waits += "wait $p" + std::to_string(i) + " || exit 1; ";
+  }
+  CHECK(bench.shell(command + waits).code == 0);
   CHECK(bench.started() == "scan smooth thin chart");
-  CHECK(bench.read("out1/chart/manifest.json") == bench.read("out2/chart/manifest.json"));
+  for (int i = 1; i < runners; ++i)
+    CHECK(bench.read("out0/chart/manifest.json") ==
+          bench.read("out" + std::to_string(i) + "/chart/manifest.json"));
+  CHECK(fs::is_empty(bench / "store/attempts"));
+  CHECK(fs::is_empty(bench / "store/locks"));
 }
