@@ -24,14 +24,14 @@ SyntheticSequence synthetic_sequence(const SyntheticSettings& settings) {
   sequence.camera = recording.camera();
   for (std::size_t i = 0; i < recording.size(); ++i) {
     synthetic::RecordedFrame f = recording.frame(i);
-    surface.add(f.exact, f.frame.depth);
+    surface.add(f.exact, f.moment, f.frame.depth);
     sequence.groundtruth.push_back({f.frame.stamp, f.frame.stamp_s, f.world_from_camera});
     sequence.instances.push_back(std::move(f.instances));
     sequence.dynamic.push_back(f.dynamic);
     sequence.exact_depth_m.push_back(f.exact.depth_m);
     sequence.frames.push_back(std::move(f.frame));
   }
-  sequence.static_cloud = surface.cloud(default_labels());
+  sequence.static_cloud = surface.cloud(recording.lighting(), default_labels());
   return sequence;
 }
 

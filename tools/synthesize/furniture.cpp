@@ -174,9 +174,9 @@ std::vector<Solid> office_chair(Workshop& w, Rgb seat_color) {
 std::vector<Solid> carton(Workshop& w, Vec3 size) {
   Solid solid = box({0, 0, size.z / 2}, size, 0);
   for (int face = 0; face < kFaces; ++face) {
-    const FaceSize face_m = face_size(solid, face);
+    const FaceRange face_m = face_range(solid, face);
     solid.materials[static_cast<std::size_t>(face)] =
-        w.sheet(cardboard(w.random.next(), face_m.u_m, face_m.v_m), face_m.u_m, face_m.v_m);
+        w.sheet(cardboard(w.random.next(), face_m.u_m, face_m.v_high_m), face_m.u_m, face_m.v_high_m);
   }
   return {solid};
 }

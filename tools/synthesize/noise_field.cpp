@@ -1,5 +1,6 @@
 #include "tools/synthesize/noise_field.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -8,31 +9,50 @@
 namespace sediment::synthetic {
 namespace {
 
-// One of 16 unit gradients, dotted with the offset from its lattice point.
-double gradient_dot(std::uint64_t seed, std::int64_t column, std::int64_t row, double dx, double dy) {
-  static constexpr double kC[16] = {1,  .923880,  .707107,  .382683,  0, -.382683, -.707107, -.923880,
-                                    -1, -.923880, -.707107, -.382683, 0, .382683,  .707107,  .923880};
-  const std::uint64_t bits = mix(seed ^ (static_cast<std::uint64_t>(column) * 0x9e3779b97f4a7c15u +
-                                         static_cast<std::uint64_t>(row) * 0xc2b2ae3d27d4eb4fu));
-  const unsigned direction = static_cast<unsigned>(bits >> 60);
-  return kC[direction] * dx + kC[(direction + 12) & 15] * dy;
+constexpr std::size_t kTable = 4096;
+
+// Random numbers by table: a cell's number costs two look-ups. Repeats after 4096 cells, further than any
+// wall.
+const std::array<std::uint16_t, kTable>& random_table() {
+  static const std::array<std::uint16_t, kTable> table = [] {
+    std::array<std::uint16_t, kTable> numbers{};
+    for (std::size_t i = 0; i < kTable; ++i) numbers[i] = static_cast<std::uint16_t>(hash(0x5eed, i) >> 48);
+    return numbers;
+  }();
+  return table;
 }
 
-double fade(double t) {
+// One of 16 unit gradients, dotted with the offset from its lattice point.
+inline float gradient_dot(unsigned direction, float dx, float dy) {
+  static constexpr float kC[16] = {1,  .923880f,  .707107f,  .382683f,  0, -.382683f, -.707107f, -.923880f,
+                                   -1, -.923880f, -.707107f, -.382683f, 0, .382683f,  .707107f,  .923880f};
+  return kC[direction & 15] * dx + kC[(direction + 12) & 15] * dy;
+}
+
+inline float fade(float t) {
   return t * t * t * (t * (t * 6 - 15) + 10);
+}
+
+inline float mixed(float from, float to, float fraction) {
+  return from + fraction * (to - from);
 }
 
 }  // namespace
 
 double plane_noise(std::uint64_t seed, double x, double y) {
+  static const std::array<std::uint16_t, kTable>& table = random_table();
   const double column = std::floor(x), row = std::floor(y);
-  const auto i = static_cast<std::int64_t>(column), j = static_cast<std::int64_t>(row);
-  const double dx = x - column, dy = y - row, sx = fade(dx), sy = fade(dy);
-  const double low =
-      std::lerp(gradient_dot(seed, i, j, dx, dy), gradient_dot(seed, i + 1, j, dx - 1, dy), sx);
-  const double high = std::lerp(gradient_dot(seed, i, j + 1, dx, dy - 1),
-                                gradient_dot(seed, i + 1, j + 1, dx - 1, dy - 1), sx);
-  return 1.5 * std::lerp(low, high, sy);
+  const auto i = static_cast<std::uint64_t>(static_cast<std::int64_t>(column)) + (seed & 0xffff);
+  const auto j = static_cast<std::uint64_t>(static_cast<std::int64_t>(row)) + (seed >> 16 & 0xffff);
+  const float dx = static_cast<float>(x - column), dy = static_cast<float>(y - row), sx = fade(dx);
+  const unsigned left = table[i % kTable], right = table[(i + 1) % kTable],
+                 turn = static_cast<unsigned>(seed >> 32);
+  const auto direction = [&](unsigned side, std::uint64_t r) { return table[(side + r) % kTable] + turn; };
+  const float low =
+      mixed(gradient_dot(direction(left, j), dx, dy), gradient_dot(direction(right, j), dx - 1, dy), sx);
+  const float high = mixed(gradient_dot(direction(left, j + 1), dx, dy - 1),
+                           gradient_dot(direction(right, j + 1), dx - 1, dy - 1), sx);
+  return 1.5f * mixed(low, high, fade(dy));
 }
 
 double fractal_noise(std::uint64_t seed, double x_m, double y_m, double coarsest_m, double finest_m,

@@ -34,7 +34,7 @@ Pattern plaster(std::uint64_t seed, Rgb color, double contrast) {
       const double radius = 0.02 + 0.07 * unit(mix(h + 1));
       const double du = cu - std::floor(cu) - mu,
                    dv = (cv - std::floor(cv) - mv) * (0.4 + 1.2 * unit(mix(h + 2)));
-      const double edge = (radius - std::hypot(du, dv)) * 0.17 / (1.5 * texel);
+      const double edge = (radius - std::sqrt(du * du + dv * dv)) * 0.17 / (1.5 * texel);
       marks += std::clamp(edge + 0.5, 0.0, 1.0) * (unit(mix(h + 3)) - 0.62);
     }
     return f(1 + contrast * (0.05 * clouds + 0.07 * grains + 0.28 * marks)) * color;

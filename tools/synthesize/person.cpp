@@ -106,7 +106,7 @@ std::array<Vec3, 2> hands_of(Arms arms, const Posture& p, double time_s, std::ui
     Vec3& hand = hands[static_cast<std::size_t>(i)];
     switch (arms) {
       case Arms::swing:
-        hand = Vec3{side * 0.24, 0, shoulder} + 0.545 * down_and_forward(swing);
+        hand = Vec3{side * 0.24, 0, shoulder} + 0.553 * down_and_forward(swing);
         break;
       case Arms::push:
         hand = {side * 0.17, -0.42, 1.04};

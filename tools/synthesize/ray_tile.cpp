@@ -131,4 +131,50 @@ void cast(const Target& target, std::int32_t solid_idx, RayTile& tile) {
   }
 }
 
+namespace {
+
+// A ball's directions, by its distance at both ends: a little larger than the ellipse it projects to.
+void include_ball(Reach& reach, Vec3 centre, double radius) {
+  for (const double z : {centre.z - radius, centre.z + radius})
+    for (const double side : {-radius, radius})
+      reach.rays.include(static_cast<float>((centre.x + side) / z),
+                         static_cast<float>((centre.y + side) / z));
+  reach.nearest_m = std::min(reach.nearest_m, static_cast<float>(centre.z - radius));
+}
+
+}  // namespace
+
+Reach reach_of(const Solid& solid, const Pose& camera_from_solid) {
+  constexpr double kClose = 0.02;
+  const Vec3& s = solid.size;
+  Reach reach{{}, kFar};
+  double farthest = -kFar;
+  if (solid.shape == Shape::box) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 p =
+          camera_from_solid * Vec3{corner & 1 ? s.x : -s.x, corner & 2 ? s.y : -s.y, corner & 4 ? s.z : -s.z};
+      reach.nearest_m = std::min(reach.nearest_m, static_cast<float>(p.z));
+      farthest = std::max(farthest, p.z);
+      if (p.z > kClose) reach.rays.include(static_cast<float>(p.x / p.z), static_cast<float>(p.y / p.z));
+    }
+  } else {
+    // A capsule is the hull of two balls; a cylinder is inside one ball around its middle.
+    const double wide = std::max(1.0, solid.flatten);
+    const bool capsule = solid.shape == Shape::capsule;
+    const double radius[2] = {wide * (capsule ? s.x : std::hypot(s.x, s.z / 2)),
+                              wide * (capsule ? s.y : std::hypot(s.x, s.z / 2))};
+    for (int end = 0; end < 2; ++end) {
+      const Vec3 centre = camera_from_solid * Vec3{0, 0, capsule ? end * s.z : s.z / 2};
+      farthest = std::max(farthest, centre.z + radius[end]);
+      if (centre.z - radius[end] > kClose)
+        include_ball(reach, centre, radius[end]);
+      else
+        reach.nearest_m = -kFar;
+    }
+  }
+  if (farthest < kClose) return {{}, kFar};
+  if (reach.nearest_m < kClose) return {{-kFar, kFar, -kFar, kFar}, 0};
+  return reach;
+}
+
 }  // namespace sediment::synthetic

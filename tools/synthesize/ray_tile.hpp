@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -17,6 +18,28 @@ struct Target {
 };
 Target target_of(const Solid& solid, const Pose& camera_from_solid);
 
+inline constexpr float kFar = 1e9f;
+
+/// Box of ray directions (x, y).
+struct RayBounds {
+  float x_low = kFar, x_high = -kFar, y_low = kFar, y_high = -kFar;
+
+  void include(float x, float y) {
+    x_low = std::min(x_low, x), x_high = std::max(x_high, x);
+    y_low = std::min(y_low, y), y_high = std::max(y_high, y);
+  }
+  bool meets(const RayBounds& other) const {
+    return x_low <= other.x_high && x_high >= other.x_low && y_low <= other.y_high && y_high >= other.y_low;
+  }
+};
+/// Where rays must point to hit a solid, and how near it may be along them; everywhere if it reaches behind
+/// the camera, nowhere if it is behind it.
+struct Reach {
+  RayBounds rays;
+  float nearest_m = 0;
+};
+Reach reach_of(const Solid& solid, const Pose& camera_from_solid);
+
 /// Rays of up to 256 pixels, cast together. Because a ray is (x, y, 1) in the camera frame, the distance
 /// along it is the depth along the optical axis.
 struct RayTile {
@@ -25,8 +48,6 @@ struct RayTile {
   alignas(64) std::array<float, kRays> depth_m;       ///< nearest hit so far
   alignas(64) std::array<std::int32_t, kRays> solid;  ///< its solid, -1 = none
 };
-
-inline constexpr float kFar = 1e9f;
 
 /// Keeps for each ray the nearer of its hit so far and its first hit with `target`.
 void cast(const Target& target, std::int32_t solid_idx, RayTile& tile);

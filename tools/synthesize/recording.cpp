@@ -65,6 +65,7 @@ Recording::Recording(const Settings& settings)
       camera_(camera_for(settings.width, settings.height)),
       play_(stage_play(settings_.scene, settings_.seed, settings_.frames / settings_.rate_hz,
                        0.9 / camera_.fx)),
+      lighting_(play_.scene, 0.05 * std::max(1.0, 640.0 / settings.width / 2)),
       renderer_(camera_) {}
 
 double Recording::time_s(std::size_t frame_idx) const {
@@ -85,8 +86,9 @@ RecordedFrame Recording::frame(std::size_t frame_idx) const {
   out.frame.stamp = stamp(frame_idx);
   out.frame.stamp_s = std::stod(out.frame.stamp);
   out.world_from_camera = play_.motion(t);
-  const Moment moment = moment_of(play_.scene, t);
-  out.exact = renderer_.render(play_.scene, moment, out.world_from_camera);
+  out.moment = moment_of(play_.scene, t);
+  const Moment& moment = out.moment;
+  out.exact = renderer_.render(play_.scene, lighting_, moment, out.world_from_camera);
 
   cv::Mat bodies(out.exact.solid.size(), CV_16UC1, cv::Scalar(0)),
       loss(bodies.size(), CV_32FC1, cv::Scalar(0));

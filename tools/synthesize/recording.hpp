@@ -27,6 +27,7 @@ struct RecordedFrame {
   Pose world_from_camera;
   InstanceMask instances;  ///< things that networks know; ids stay the same through the sequence
   cv::Mat dynamic;         ///< CV_8UC1, DynamicValue: 2 only while the object is being moved
+  Moment moment;           ///< what is where
   Rendering exact;         ///< without noise
 };
 
@@ -39,6 +40,7 @@ class Recording {
 
   const Camera& camera() const { return camera_; }
   const Scene& scene() const { return play_.scene; }
+  const Lighting& lighting() const { return lighting_; }
   std::size_t size() const { return static_cast<std::size_t>(settings_.frames); }
 
   double time_s(std::size_t frame_idx) const;
@@ -54,6 +56,7 @@ class Recording {
   Settings settings_;
   Camera camera_;
   Play play_;
+  Lighting lighting_;
   Renderer renderer_;
 };
 

@@ -3,9 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 
-#include "tools/synthesize/ray_tile.hpp"
 #include "tools/synthesize/shading.hpp"
 
 namespace sediment::synthetic {
@@ -21,168 +20,165 @@ cv::Vec3b pixel_of(const Rgb& c) {
   return {byte(c.b), byte(c.g), byte(c.r)};
 }
 
+/// Casts at the candidates (nearest first) until the rest is behind everything that was hit.
+void cast_all(const std::vector<int>& candidates, const std::vector<Target>& targets,
+              const std::vector<Reach>& reaches, RayTile& tile) {
+  float farthest = kFar;
+  for (const int solid_idx : candidates) {
+    const auto i = static_cast<std::size_t>(solid_idx);
+    if (reaches[i].nearest_m > farthest) break;
+    cast(targets[i], solid_idx, tile);
+    farthest = *std::max_element(tile.depth_m.begin(), tile.depth_m.end());
+  }
+}
+
 }  // namespace
 
 /// What one rendering works on.
-struct Renderer::View {
-  const Scene& scene;
-  const Moment& moment;
-  const Pose& world_from_camera;
+struct Renderer::Work {
+  View view;
   std::vector<Target> targets;
-  std::vector<Bounds> bounds;
-  std::vector<std::vector<int>> candidates;  ///< solids that a tile may see
+  std::vector<Reach> reaches;
+  std::vector<int> nearest_first;            ///< indices of solids that may be seen at all
+  std::vector<std::vector<int>> candidates;  ///< of a tile, nearest first
   Rendering image;
 };
 
 Renderer::Renderer(const Camera& camera) : camera_(camera), rays_(rays_of(camera)) {
   tiles_across_ = (camera.width + kTile - 1) / kTile;
   tiles_down_ = (camera.height + kTile - 1) / kTile;
-  // Rays of one pixel around the tile: the samples of its border pixels reach beyond their centres.
-  const float margin_x = static_cast<float>(1 / camera.fx), margin_y = static_cast<float>(1 / camera.fy);
   for (int tile = 0; tile < tiles_across_ * tiles_down_; ++tile) {
-    const int left = tile % tiles_across_ * kTile, top = tile / tiles_across_ * kTile;
-    Bounds b{kFar, -kFar, kFar, -kFar};
-    for (int v = top; v < std::min(top + kTile, camera.height); ++v)
-      for (int u = left; u < std::min(left + kTile, camera.width); ++u) {
+    RayBounds bounds;
+    const cv::Rect area = area_of(tile);
+    // A pixel more on each side: the samples of border pixels reach beyond their centres.
+    for (int v = area.y; v < area.br().y; ++v)
+      for (int u = area.x; u < area.br().x; ++u) {
         const Ray& ray = rays_[static_cast<std::size_t>(v) * camera.width + u];
-        b = {std::min(b.x_low, ray.x), std::max(b.x_high, ray.x), std::min(b.y_low, ray.y),
-             std::max(b.y_high, ray.y)};
+        const float dx = static_cast<float>(1 / camera.fx), dy = static_cast<float>(1 / camera.fy);
+        bounds.include(ray.x - dx, ray.y - dy);
+        bounds.include(ray.x + dx, ray.y + dy);
       }
-    tile_bounds_.push_back(
-        {b.x_low - margin_x, b.x_high + margin_x, b.y_low - margin_y, b.y_high + margin_y});
+    tile_bounds_.push_back(bounds);
   }
 }
 
-Renderer::Bounds Renderer::bounds_of(const PlacedSolid& placed, const Pose& camera_from_world) {
-  constexpr double kNear = 0.02;
-  const Pose camera_from_solid = camera_from_world * placed.world_from_solid;
-  const Vec3 centre = camera_from_solid * centre_of(*placed.solid);
-  const double radius = bounding_radius(*placed.solid);
-  if (centre.z + radius < kNear) return {kFar, -kFar, kFar, -kFar};  // behind the camera
-  if (placed.solid->shape == Shape::box) {
-    Bounds b{kFar, -kFar, kFar, -kFar};
-    const Vec3& h = placed.solid->size;
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vec3 p =
-          camera_from_solid * Vec3{corner & 1 ? h.x : -h.x, corner & 2 ? h.y : -h.y, corner & 4 ? h.z : -h.z};
-      if (p.z < kNear) return {-kFar, kFar, -kFar, kFar};  // reaches behind the camera: may be anywhere
-      const float x = static_cast<float>(p.x / p.z), y = static_cast<float>(p.y / p.z);
-      b = {std::min(b.x_low, x), std::max(b.x_high, x), std::min(b.y_low, y), std::max(b.y_high, y)};
-    }
-    return b;
-  }
-  const double nearest = centre.z - radius, farthest = centre.z + radius;
-  if (nearest < kNear) return {-kFar, kFar, -kFar, kFar};
-  const auto low = [&](double c) {
-    return static_cast<float>(std::min((c - radius) / nearest, (c - radius) / farthest));
-  };
-  const auto high = [&](double c) {
-    return static_cast<float>(std::max((c + radius) / nearest, (c + radius) / farthest));
-  };
-  return {low(centre.x), high(centre.x), low(centre.y), high(centre.y)};
-}
-
-void Renderer::find_hits(View& view, int tile_idx) const {
-  const Bounds& t = tile_bounds_[tile_idx];
-  auto& candidates = view.candidates[tile_idx];
-  for (std::size_t i = 0; i < view.bounds.size(); ++i) {
-    const Bounds& b = view.bounds[i];
-    if (b.x_low <= t.x_high && b.x_high >= t.x_low && b.y_low <= t.y_high && b.y_high >= t.y_low)
-      candidates.push_back(static_cast<int>(i));
-  }
+cv::Rect Renderer::area_of(int tile_idx) const {
   const int left = tile_idx % tiles_across_ * kTile, top = tile_idx / tiles_across_ * kTile;
+  return {left, top, std::min(kTile, camera_.width - left), std::min(kTile, camera_.height - top)};
+}
+
+void Renderer::find_hits(Work& work, int tile_idx) const {
+  auto& candidates = work.candidates[static_cast<std::size_t>(tile_idx)];
+  for (const int i : work.nearest_first)
+    if (work.reaches[static_cast<std::size_t>(i)].rays.meets(
+            tile_bounds_[static_cast<std::size_t>(tile_idx)]))
+      candidates.push_back(i);
+  const cv::Rect area = area_of(tile_idx);
   RayTile tile;
+  tile.depth_m.fill(kFar);
+  tile.solid.fill(-1);
   for (int i = 0; i < RayTile::kRays; ++i) {
-    const int u = std::min(left + i % kTile, camera_.width - 1),
-              v = std::min(top + i / kTile, camera_.height - 1);
+    // Rays beyond the image's border repeat the last one.
+    const int u = area.x + std::min(i % kTile, area.width - 1),
+              v = area.y + std::min(i / kTile, area.height - 1);
     const Ray& ray = rays_[static_cast<std::size_t>(v) * camera_.width + u];
-    tile.x[i] = ray.x, tile.y[i] = ray.y, tile.depth_m[i] = kFar, tile.solid[i] = -1;
+    tile.x[i] = ray.x, tile.y[i] = ray.y;
   }
-  for (const int solid_idx : candidates) cast(view.targets[solid_idx], solid_idx, tile);
-  for (int i = 0; i < RayTile::kRays; ++i) {
-    const int u = left + i % kTile, v = top + i / kTile;
-    if (u >= camera_.width || v >= camera_.height) continue;
-    view.image.solid.at<int>(v, u) = tile.solid[i];
-    view.image.depth_m.at<float>(v, u) = tile.solid[i] < 0 ? 0 : tile.depth_m[i];
-  }
+  cast_all(candidates, work.targets, work.reaches, tile);
+  for (int y = 0; y < area.height; ++y)
+    for (int x = 0; x < area.width; ++x) {
+      const int i = y * kTile + x;
+      work.image.solid.at<int>(area.y + y, area.x + x) = tile.solid[i];
+      work.image.depth_m.at<float>(area.y + y, area.x + x) = tile.solid[i] < 0 ? 0 : tile.depth_m[i];
+    }
 }
 
-void Renderer::paint(View& view, int tile_idx) const {
-  const int left = tile_idx % tiles_across_ * kTile, top = tile_idx / tiles_across_ * kTile;
-  for (int v = top; v < std::min(top + kTile, camera_.height); ++v)
-    for (int u = left; u < std::min(left + kTile, camera_.width); ++u) {
-      const int solid_idx = view.image.solid.at<int>(v, u);
+void Renderer::paint(Work& work, int tile_idx) const {
+  const cv::Rect area = area_of(tile_idx);
+  for (int v = area.y; v < area.br().y; ++v)
+    for (int u = area.x; u < area.br().x; ++u) {
+      const int solid_idx = work.image.solid.at<int>(v, u);
       if (solid_idx < 0) continue;
       const Ray& ray = rays_[static_cast<std::size_t>(v) * camera_.width + u];
-      const Shade s = shade(view.scene, view.moment.solids[solid_idx], view.world_from_camera, ray.x, ray.y,
-                            view.image.depth_m.at<float>(v, u), 1 / camera_.fx);
-      view.image.color.at<cv::Vec3b>(v, u) = pixel_of(s.color);
-      view.image.face.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(s.face);
-      view.image.place.at<cv::Vec2f>(v, u) = {s.u_m, s.v_m};
+      const Shade s = shade(work.view, solid_idx, ray.x, ray.y, work.image.depth_m.at<float>(v, u));
+      work.image.color.at<cv::Vec3b>(v, u) = pixel_of(s.color);
+      work.image.face.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(s.face);
+      work.image.place.at<cv::Vec2f>(v, u) = {s.u_m, s.v_m};
     }
 }
 
-// Four samples a pixel (rotated grid) where a pixel's neighbours show another face.
-void Renderer::smooth_edges(View& view, int tile_idx, const std::vector<int>& pixels) const {
+/// Pixels with another face beside them.
+std::vector<int> Renderer::edge_pixels(const Work& work, int tile_idx) const {
+  const cv::Mat &solid = work.image.solid, &face = work.image.face;
+  const auto same = [&](int v, int u, int v2, int u2) {
+    if (v2 < 0 || u2 < 0 || v2 >= camera_.height || u2 >= camera_.width) return true;
+    return solid.at<int>(v, u) == solid.at<int>(v2, u2) &&
+           face.at<std::uint8_t>(v, u) == face.at<std::uint8_t>(v2, u2);
+  };
+  std::vector<int> pixels;
+  const cv::Rect area = area_of(tile_idx);
+  for (int v = area.y; v < area.br().y; ++v)
+    for (int u = area.x; u < area.br().x; ++u)
+      if (!same(v, u, v, u - 1) || !same(v, u, v, u + 1) || !same(v, u, v - 1, u) || !same(v, u, v + 1, u))
+        pixels.push_back(v * camera_.width + u);
+  return pixels;
+}
+
+// Four samples a pixel, on a rotated grid.
+void Renderer::smooth_edges(Work& work, int tile_idx) const {
   constexpr int kSamples = 4, kBatch = RayTile::kRays / kSamples;
   constexpr double kOffset[kSamples][2] = {
       {-0.125, -0.375}, {0.375, -0.125}, {-0.375, 0.125}, {0.125, 0.375}};
+  const std::vector<int> pixels = edge_pixels(work, tile_idx);
   RayTile tile;
   for (std::size_t first = 0; first < pixels.size(); first += kBatch) {
     const int count = static_cast<int>(std::min<std::size_t>(kBatch, pixels.size() - first));
+    tile.depth_m.fill(kFar);
+    tile.solid.fill(-1);
     for (int i = 0; i < RayTile::kRays; ++i) {
-      const int pixel = pixels[first + std::min(i / kSamples, count - 1)];
+      const int pixel = pixels[first + static_cast<std::size_t>(std::min(i / kSamples, count - 1))];
       const double* offset = kOffset[i % kSamples];
       const Pixel ray =
           camera_.undistort({pixel % camera_.width + offset[0], pixel / camera_.width + offset[1]});
       tile.x[i] = static_cast<float>(ray.u), tile.y[i] = static_cast<float>(ray.v);
-      tile.depth_m[i] = kFar, tile.solid[i] = -1;
     }
-    for (const int solid_idx : view.candidates[tile_idx]) cast(view.targets[solid_idx], solid_idx, tile);
+    cast_all(work.candidates[static_cast<std::size_t>(tile_idx)], work.targets, work.reaches, tile);
     for (int i = 0; i < count; ++i) {
       Rgb sum;
-      for (int sample = kSamples * i; sample < kSamples * (i + 1); ++sample)
-        if (tile.solid[sample] >= 0)
-          sum = sum + shade(view.scene, view.moment.solids[tile.solid[sample]], view.world_from_camera,
-                            tile.x[sample], tile.y[sample], tile.depth_m[sample], 1 / camera_.fx)
-                          .color;
-      const int pixel = pixels[first + i];
-      view.image.color.at<cv::Vec3b>(pixel / camera_.width, pixel % camera_.width) =
+      for (int s = kSamples * i; s < kSamples * (i + 1); ++s)
+        if (tile.solid[s] >= 0)
+          sum = sum + shade(work.view, tile.solid[s], tile.x[s], tile.y[s], tile.depth_m[s]).color;
+      const int pixel = pixels[first + static_cast<std::size_t>(i)];
+      work.image.color.at<cv::Vec3b>(pixel / camera_.width, pixel % camera_.width) =
           pixel_of((1.f / kSamples) * sum);
     }
   }
 }
 
-Rendering Renderer::render(const Scene& scene, const Moment& moment, const Pose& world_from_camera) const {
+Rendering Renderer::render(const Scene& scene, const Lighting& lighting, const Moment& moment,
+                           const Pose& world_from_camera) const {
   const cv::Size size(camera_.width, camera_.height);
-  View view{scene, moment, world_from_camera, {}, {}, {}, {}};
-  view.image = {cv::Mat(size, CV_8UC3, cv::Scalar::all(0)), cv::Mat(size, CV_32FC1), cv::Mat(size, CV_32SC1),
+  Work work{{scene, lighting, moment, world_from_camera, 1 / camera_.fx}, {}, {}, {}, {}, {}};
+  work.image = {cv::Mat(size, CV_8UC3, cv::Scalar::all(0)), cv::Mat(size, CV_32FC1), cv::Mat(size, CV_32SC1),
                 cv::Mat(size, CV_8UC1, cv::Scalar(0)), cv::Mat(size, CV_32FC2, cv::Scalar::all(0))};
   const Pose camera_from_world = world_from_camera.inverse();
   for (const PlacedSolid& placed : moment.solids) {
-    view.targets.push_back(target_of(*placed.solid, camera_from_world * placed.world_from_solid));
-    view.bounds.push_back(bounds_of(placed, camera_from_world));
+    const Pose camera_from_solid = camera_from_world * placed.world_from_solid;
+    work.targets.push_back(target_of(*placed.solid, camera_from_solid));
+    work.reaches.push_back(reach_of(*placed.solid, camera_from_solid));
   }
-  const int tiles = tiles_across_ * tiles_down_;
-  view.candidates.resize(tiles);
-  tbb::parallel_for(0, tiles, [&](int tile) { find_hits(view, tile); });
-  tbb::parallel_for(0, tiles, [&](int tile) { paint(view, tile); });
-
-  const auto differs = [&](int v, int u, int v2, int u2) {
-    return view.image.solid.at<int>(v, u) != view.image.solid.at<int>(v2, u2) ||
-           view.image.face.at<std::uint8_t>(v, u) != view.image.face.at<std::uint8_t>(v2, u2);
-  };
-  tbb::parallel_for(0, tiles, [&](int tile) {
-    std::vector<int> edges;
-    const int left = tile % tiles_across_ * kTile, top = tile / tiles_across_ * kTile;
-    for (int v = top; v < std::min(top + kTile, camera_.height); ++v)
-      for (int u = left; u < std::min(left + kTile, camera_.width); ++u)
-        if ((u > 0 && differs(v, u, v, u - 1)) || (u + 1 < camera_.width && differs(v, u, v, u + 1)) ||
-            (v > 0 && differs(v, u, v - 1, u)) || (v + 1 < camera_.height && differs(v, u, v + 1, u)))
-          edges.push_back(v * camera_.width + u);
-    smooth_edges(view, tile, edges);
+  work.nearest_first.resize(work.targets.size());
+  std::iota(work.nearest_first.begin(), work.nearest_first.end(), 0);
+  std::stable_sort(work.nearest_first.begin(), work.nearest_first.end(), [&](int a, int b) {
+    return work.reaches[static_cast<std::size_t>(a)].nearest_m <
+           work.reaches[static_cast<std::size_t>(b)].nearest_m;
   });
-  return std::move(view.image);
+  const int tiles = tiles_across_ * tiles_down_;
+  work.candidates.resize(static_cast<std::size_t>(tiles));
+  tbb::parallel_for(0, tiles, [&](int tile) { find_hits(work, tile); });
+  tbb::parallel_for(0, tiles, [&](int tile) { paint(work, tile); });
+  tbb::parallel_for(0, tiles, [&](int tile) { smooth_edges(work, tile); });
+  return std::move(work.image);
 }
 
 }  // namespace sediment::synthetic

@@ -3,7 +3,8 @@
 #include <opencv2/core.hpp>
 
 #include "pipeline/scene/camera.hpp"
-#include "tools/synthesize/scene.hpp"
+#include "tools/synthesize/lighting.hpp"
+#include "tools/synthesize/ray_tile.hpp"
 
 namespace sediment::synthetic {
 
@@ -17,26 +18,26 @@ struct Rendering {
   cv::Mat place;    ///< CV_32FC2, u and v on that face, metres
 };
 
-/// Renders with all threads TBB has; the result does not depend on their number.
+/// Casts a ray through every pixel, tile by tile: solids are sorted into the tiles they may touch, the rays
+/// of a tile are cast together. Uses all threads TBB has; the result does not depend on their number.
 class Renderer {
  public:
   explicit Renderer(const Camera& camera);
-  Rendering render(const Scene& scene, const Moment& moment, const Pose& world_from_camera) const;
+  Rendering render(const Scene& scene, const Lighting& lighting, const Moment& moment,
+                   const Pose& world_from_camera) const;
 
  private:
-  struct Bounds {
-    float x_low, x_high, y_low, y_high;  ///< of rays, normalised image coordinates
-  };
-  struct View;
-  static Bounds bounds_of(const PlacedSolid& placed, const Pose& camera_from_world);
-  void find_hits(View& view, int tile_idx) const;
-  void paint(View& view, int tile_idx) const;
-  void smooth_edges(View& view, int tile_idx, const std::vector<int>& pixels) const;
+  struct Work;
+  void find_hits(Work& work, int tile_idx) const;
+  void paint(Work& work, int tile_idx) const;
+  std::vector<int> edge_pixels(const Work& work, int tile_idx) const;
+  void smooth_edges(Work& work, int tile_idx) const;
+  cv::Rect area_of(int tile_idx) const;
 
   Camera camera_;
   std::vector<Ray> rays_;
   int tiles_across_, tiles_down_;
-  std::vector<Bounds> tile_bounds_;
+  std::vector<RayBounds> tile_bounds_;
 };
 
 }  // namespace sediment::synthetic

@@ -45,10 +45,10 @@ void hang_lamps(Workshop& w) {
     for (const double y : {-1.0, 1.1}) {
       panels.push_back(
           box({x, y, kHeight - 0.02}, {1.2, 0.3, 0.04}, w.plain({.8f, .8f, .8f}), kBottom, tube));
-      w.scene.lamps.push_back({{x, y, kHeight - 0.3}, {.42f, .41f, .39f}});
+      w.scene.lamps.push_back({{x, y, kHeight - 0.045}, 1.2, 0.3, {2.5f, 2.42f, 2.3f}});
     }
   w.add("lamps", "other furniture", false, std::move(panels));
-  w.scene.ambient = {.42f, .43f, .45f};
+  w.scene.thrown_back = {3.8f, 3.8f, 3.8f};
 }
 
 // Sheets on a wall: `along` runs over the wall, from the left for one who looks at it.

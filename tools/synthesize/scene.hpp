@@ -32,9 +32,10 @@ struct Body {
   std::function<std::vector<Solid>(double time_s)> articulated;  ///< of persons: solids in the world frame
 };
 
-/// A lamp that shines in all directions, stronger to below.
+/// A panel that shines downward.
 struct Lamp {
   Vec3 position;
+  double width_m, depth_m;
   Rgb power;
 };
 
@@ -44,7 +45,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Body> bodies;
   std::vector<Lamp> lamps;
-  Rgb ambient{0.4f, 0.4f, 0.4f};
+  Rgb thrown_back;           ///< strength of the light that walls, floor and ceiling throw back
   Vec3 room_low, room_high;  ///< inner corners of the room, metres
 };
 
@@ -53,12 +54,19 @@ struct PlacedSolid {
   const Solid* solid;
   Pose world_from_solid;
   int body_idx;
+  int fixed_idx;  ///< among all solids that never move, -1 = may move
+};
+
+/// The soft shadow that a moving thing leaves on what is below it.
+struct SoftShadow {
+  double x, y, radius_m, top_m;
 };
 
 /// All solids at one time.
 struct Moment {
-  std::vector<PlacedSolid> solids;              ///< in the order of the bodies
-  std::vector<bool> moving;                     ///< by body: a person, or an object moved at this time
+  std::vector<PlacedSolid> solids;  ///< in the order of the bodies
+  std::vector<bool> moving;         ///< by body: a person, or an object moved at this time
+  std::vector<SoftShadow> shadows;
   std::vector<std::vector<Solid>> articulated;  ///< owns the solids of persons
 };
 Moment moment_of(const Scene& scene, double time_s);

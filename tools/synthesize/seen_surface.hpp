@@ -15,22 +15,24 @@ class SeenSurface {
 
   /// Adds what `rendering` shows where the sensor gave depth (`depth` not 0). Not safe to call from several
   /// threads at once.
-  void add(const Rendering& rendering, const cv::Mat& depth);
+  void add(const Rendering& rendering, const Moment& moment, const cv::Mat& depth);
 
   /// The middle of every cell seen, in the order of solids and cells, with colour, label and body as
   /// instance.
-  LabelledCloud cloud(const LabelTable& labels) const;
+  LabelledCloud cloud(const Lighting& lighting, const LabelTable& labels) const;
 
  private:
   struct Grid {
-    int body_idx, solid_idx, face;
+    int body_idx, solid_idx, face, fixed_idx;
     int columns, rows;
-    double cell_u_m, cell_v_m;
+    double cell_u_m, cell_v_m, v_low_m;
     std::vector<std::uint8_t> seen;
   };
+  LabelledPoint point_of(const Grid& grid, int column, int row, const Lighting& lighting) const;
+
   const Scene& scene_;
   std::vector<Grid> grids_;
-  std::vector<int> first_grid_;  ///< by index into Moment::solids, -1 = may move
+  std::vector<int> first_grid_;  ///< by PlacedSolid::fixed_idx
 };
 
 }  // namespace sediment::synthetic

@@ -90,14 +90,14 @@ void write_recording(const Recording& recording, const std::filesystem::path& fo
     dynamic.write(f.frame.stamp, f.dynamic, {});
     {
       const std::lock_guard lock(surface_mutex);
-      surface.add(f.exact, f.frame.depth);
+      surface.add(f.exact, f.moment, f.frame.depth);
     }
     if (written) written();
   });
   instances.finish();
   dynamic.finish();
-  write_cloud(folder / "truth" / "static_cloud", surface.cloud(default_labels()), default_labels(),
-              PcdEncoding::binary);
+  write_cloud(folder / "truth" / "static_cloud", surface.cloud(recording.lighting(), default_labels()),
+              default_labels(), PcdEncoding::binary);
 }
 
 }  // namespace sediment::synthetic

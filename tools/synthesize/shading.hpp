@@ -1,11 +1,17 @@
 #pragma once
 
-#include "tools/synthesize/scene.hpp"
+#include "tools/synthesize/lighting.hpp"
 
 namespace sediment::synthetic {
 
-/// Light that a surface at `point` with unit `normal` (world frame) sends back, as factor on its colour.
-Rgb light_at(const Scene& scene, Vec3 point, Vec3 normal);
+/// What a picture shows.
+struct View {
+  const Scene& scene;
+  const Lighting& lighting;
+  const Moment& moment;
+  Pose world_from_camera;
+  double pixel_angle;  ///< distance between neighbouring rays: 1 / focal length in pixels
+};
 
 /// A hit of a ray, ready to be shown.
 struct Shade {
@@ -14,9 +20,8 @@ struct Shade {
   float u_m = 0, v_m = 0;
 };
 
-/// Colour of the place where the ray (x, y, 1) of the camera meets a solid at `depth_m`; `pixel_angle` is the
-/// distance between neighbouring rays (1 / focal length).
-Shade shade(const Scene& scene, const PlacedSolid& placed, const Pose& world_from_camera, double x, double y,
-            double depth_m, double pixel_angle);
+/// Colour of the place where the ray (x, y, 1) of the camera meets a solid (index into moment.solids) at
+/// `depth_m`.
+Shade shade(const View& view, int solid_idx, double x, double y, double depth_m);
 
 }  // namespace sediment::synthetic

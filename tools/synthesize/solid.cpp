@@ -77,12 +77,13 @@ int face_count(Shape shape) {
   return shape == Shape::box ? 6 : shape == Shape::cylinder ? 3 : 1;
 }
 
-FaceSize face_size(const Solid& solid, int face) {
+FaceRange face_range(const Solid& solid, int face) {
   if (solid.shape == Shape::box)
-    return {2 * extent_along(solid.size, kBoxFaces[face].u), 2 * extent_along(solid.size, kBoxFaces[face].v)};
-  if (face > 0) return {2 * solid.size.x, 2 * solid.size.x};
-  const double radius = solid.shape == Shape::cylinder ? solid.size.x : (solid.size.x + solid.size.y) / 2;
-  return {2 * std::numbers::pi * radius, solid.size.z};
+    return {2 * extent_along(solid.size, kBoxFaces[face].u), 0,
+            2 * extent_along(solid.size, kBoxFaces[face].v)};
+  if (face > 0) return {2 * solid.size.x, 0, 2 * solid.size.x};
+  if (solid.shape == Shape::cylinder) return {2 * std::numbers::pi * solid.size.x, 0, solid.size.z};
+  return {std::numbers::pi * (solid.size.x + solid.size.y), -solid.size.y, solid.size.z + solid.size.x};
 }
 
 Vec3 point_on(const Solid& solid, int face, double u_m, double v_m) {
@@ -94,7 +95,7 @@ Vec3 point_on(const Solid& solid, int face, double u_m, double v_m) {
   }
   if (face > 0)
     return {u_m - solid.size.x, solid.flatten * (solid.size.x - v_m), face == 2 ? solid.size.z : 0};
-  const double circumference = face_size(solid, face).u_m;
+  const double circumference = face_range(solid, face).u_m;
   const double angle = 2 * std::numbers::pi * u_m / circumference - std::numbers::pi;
   const double z = solid.size.z - v_m;
   double radius = solid.size.x;
@@ -110,18 +111,6 @@ Vec3 point_on(const Solid& solid, int face, double u_m, double v_m) {
       radius = (solid.size.x - slope * z) / cosine;
   }
   return {radius * std::cos(angle), solid.flatten * radius * std::sin(angle), z};
-}
-
-Vec3 centre_of(const Solid& solid) {
-  return solid.shape == Shape::box ? Vec3{} : Vec3{0, 0, solid.size.z / 2};
-}
-
-double bounding_radius(const Solid& solid) {
-  const Vec3& s = solid.size;
-  const double wide = std::max(1.0, solid.flatten);
-  if (solid.shape == Shape::box) return norm(s);
-  if (solid.shape == Shape::cylinder) return std::hypot(wide * s.x, s.z / 2);
-  return wide * (s.z / 2 + std::max(s.x, s.y));
 }
 
 }  // namespace sediment::synthetic

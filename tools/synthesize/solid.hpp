@@ -39,18 +39,15 @@ struct SurfacePoint {
 /// What is at a point of the surface given in the solid's frame (points slightly off it are moved onto it).
 SurfacePoint surface_at(const Solid& solid, Vec3 point);
 
-/// Size of a face in metres (u, v); for curved faces circumference and length.
-struct FaceSize {
-  double u_m = 0, v_m = 0;
+/// Extent of a face: u from 0, v from `v_low_m` (below 0 on a capsule, whose round end is above its axis).
+/// For curved faces circumference and length.
+struct FaceRange {
+  double u_m = 0, v_low_m = 0, v_high_m = 0;
 };
-FaceSize face_size(const Solid& solid, int face);
+FaceRange face_range(const Solid& solid, int face);
 int face_count(Shape shape);
 
 /// The inverse of surface_at: the place (u, v) of a face in the solid's frame.
 Vec3 point_on(const Solid& solid, int face, double u_m, double v_m);
-
-/// Radius of a ball around `centre_of` that holds the solid.
-double bounding_radius(const Solid& solid);
-Vec3 centre_of(const Solid& solid);
 
 }  // namespace sediment::synthetic

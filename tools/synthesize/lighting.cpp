@@ -1,0 +1,108 @@
+#include "tools/synthesize/lighting.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/synthesize/emitters.hpp"
+
+namespace sediment::synthetic {
+
+Lighting::Lighting(const Scene& scene, double lumel_m) {
+  light_faces(scene, lumel_m);
+  light_air(scene);
+}
+
+void Lighting::light_faces(const Scene& scene, double lumel_m) {
+  std::vector<Receiver> receivers;
+  for (const Body& body : scene.bodies) {
+    if (body.mobility != Mobility::fixed) continue;
+    for (const Solid& solid : body.solids) {
+      first_map_.push_back(static_cast<int>(maps_.size()));
+      for (int face = 0; face < face_count(solid.shape); ++face) {
+        const FaceRange range = face_range(solid, face);
+        Map map;
+        map.columns = std::max(1, static_cast<int>(std::lround(range.u_m / lumel_m)));
+        map.rows = std::max(1, static_cast<int>(std::lround((range.v_high_m - range.v_low_m) / lumel_m)));
+        map.cells_per_m_u = static_cast<float>(map.columns / range.u_m);
+        map.cells_per_m_v = static_cast<float>(map.rows / (range.v_high_m - range.v_low_m));
+        map.shift_v_m = static_cast<float>(-range.v_low_m);
+        for (int row = 0; row < map.rows; ++row)
+          for (int column = 0; column < map.columns; ++column) {
+            const Vec3 point = point_on(solid, face, (column + 0.5) / map.cells_per_m_u,
+                                        (row + 0.5) / map.cells_per_m_v + range.v_low_m);
+            receivers.push_back({solid.body_from_solid * point,
+                                 solid.body_from_solid.rotate(surface_at(solid, point).normal)});
+          }
+        maps_.push_back(std::move(map));
+      }
+    }
+  }
+  const std::vector<Rgb> light = gather(scene, receivers);
+  auto next = light.begin();
+  for (Map& map : maps_) {
+    const auto end = next + map.columns * map.rows;
+    map.light.assign(next, end);
+    next = end;
+  }
+}
+
+void Lighting::light_air(const Scene& scene) {
+  low_ = scene.room_low;
+  const Vec3 size = scene.room_high - scene.room_low;
+  probes_across_ = {static_cast<int>(size.x / probe_spacing_m_) + 1,
+                    static_cast<int>(size.y / probe_spacing_m_) + 1,
+                    static_cast<int>(size.z / probe_spacing_m_) + 1};
+  std::vector<Vec3> points;
+  for (int k = 0; k < probes_across_[2]; ++k)
+    for (int j = 0; j < probes_across_[1]; ++j)
+      for (int i = 0; i < probes_across_[0]; ++i)
+        points.push_back(low_ + probe_spacing_m_ * Vec3{i + 0.5, j + 0.5, k + 0.5});
+  probes_ = gather_all_round(scene, points);
+}
+
+Rgb Lighting::on_face(int fixed_idx, int face, float u_m, float v_m) const {
+  const Map& map = maps_[static_cast<std::size_t>(first_map_[static_cast<std::size_t>(fixed_idx)] + face)];
+  const float u = std::clamp(u_m * map.cells_per_m_u - 0.5f, 0.f, static_cast<float>(map.columns - 1));
+  const float v =
+      std::clamp((v_m + map.shift_v_m) * map.cells_per_m_v - 0.5f, 0.f, static_cast<float>(map.rows - 1));
+  const int left = static_cast<int>(u), top = static_cast<int>(v);
+  const int right = std::min(left + 1, map.columns - 1), bottom = std::min(top + 1, map.rows - 1);
+  const float fu = u - static_cast<float>(left), fv = v - static_cast<float>(top);
+  const auto at = [&](int row, int column) {
+    return map.light[static_cast<std::size_t>(row) * map.columns + column];
+  };
+  return (1 - fv) * ((1 - fu) * at(top, left) + fu * at(top, right)) +
+         fv * ((1 - fu) * at(bottom, left) + fu * at(bottom, right));
+}
+
+Rgb Lighting::in_air(Vec3 point, Vec3 normal) const {
+  const Vec3 p = (point - low_) / probe_spacing_m_ - Vec3{0.5, 0.5, 0.5};
+  const double coordinate[3] = {p.x, p.y, p.z}, n[3] = {normal.x, normal.y, normal.z};
+  int cell[3];
+  float fraction[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const double bounded =
+        std::clamp(coordinate[axis], 0.0, probes_across_[static_cast<std::size_t>(axis)] - 1.001);
+    cell[axis] = static_cast<int>(bounded);
+    fraction[axis] = static_cast<float>(bounded - cell[axis]);
+  }
+  Rgb sum;
+  for (int corner = 0; corner < 8; ++corner) {
+    float weight = 1;
+    int index[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool high = corner >> axis & 1;
+      index[axis] = cell[axis] + high;
+      weight *= high ? fraction[axis] : 1 - fraction[axis];
+    }
+    const Probe& probe =
+        probes_[(static_cast<std::size_t>(index[2]) * probes_across_[1] + index[1]) * probes_across_[0] +
+                index[0]];
+    for (int axis = 0; axis < 3; ++axis)
+      sum = sum + weight * static_cast<float>(n[axis] * n[axis]) *
+                      probe[static_cast<std::size_t>(2 * axis + (n[axis] > 0))];
+  }
+  return sum;
+}
+
+}  // namespace sediment::synthetic

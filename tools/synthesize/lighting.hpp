@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "tools/synthesize/scene.hpp"
+
+namespace sediment::synthetic {
+
+/// Light in the room, found once: for all that never moves a map of soft shadows on each face, for all that
+/// moves a grid of probes in the air. Both gather the lamps and what the walls, floor and ceiling throw back
+/// (some dozens of small emitters there: Keller, Instant Radiosity, 1997), hidden by what stands between.
+class Lighting {
+ public:
+  /// `lumel_m` is the side of a cell of the maps.
+  Lighting(const Scene& scene, double lumel_m);
+
+  /// Factor on the colour of a place on a fixed solid (index as PlacedSolid::fixed_idx).
+  Rgb on_face(int fixed_idx, int face, float u_m, float v_m) const;
+  /// The same for a surface with `normal` anywhere in the room.
+  Rgb in_air(Vec3 point, Vec3 normal) const;
+
+ private:
+  struct Map {
+    int columns = 1, rows = 1;
+    float cells_per_m_u = 0, cells_per_m_v = 0, shift_v_m = 0;
+    std::vector<Rgb> light;
+  };
+  using Probe = std::array<Rgb, 6>;  ///< light on surfaces that look to -x +x -y +y -z +z
+
+  void light_faces(const Scene& scene, double lumel_m);
+  void light_air(const Scene& scene);
+
+  std::vector<Map> maps_;
+  std::vector<int> first_map_;  ///< by fixed_idx
+  Vec3 low_;
+  double probe_spacing_m_ = 0.5;
+  std::array<int, 3> probes_across_{};
+  std::vector<Probe> probes_;
+};
+
+}  // namespace sediment::synthetic
