@@ -53,7 +53,7 @@ Play stage_play(const std::string& name, std::uint64_t seed, double duration_s, 
     if (entry.title.name != name) continue;
     Workshop workshop(hash(seed, 1), texel_m);
     CameraMotion motion = entry.play({workshop, hash(seed, 2), duration_s});
-    return {std::move(workshop.scene), std::move(motion), entry.blackout_from, entry.blackout_to};
+    return {std::move(workshop).finish(), std::move(motion), entry.blackout_from, entry.blackout_to};
   }
   const std::string nearest = contract::nearest_name(name, names);
   std::string message = "there is no scene '" + name + "'";

@@ -158,12 +158,13 @@ void Renderer::smooth_edges(Work& work, int tile_idx) const {
 Rendering Renderer::render(const Scene& scene, const Lighting& lighting, const Moment& moment,
                            const Pose& world_from_camera) const {
   const cv::Size size(camera_.width, camera_.height);
-  Work work{{scene, lighting, moment, world_from_camera, 1 / camera_.fx}, {}, {}, {}, {}, {}};
+  Work work{{scene, lighting, moment, world_from_camera, {}, 1 / camera_.fx}, {}, {}, {}, {}, {}};
   work.image = {cv::Mat(size, CV_8UC3, cv::Scalar::all(0)), cv::Mat(size, CV_32FC1), cv::Mat(size, CV_32SC1),
                 cv::Mat(size, CV_8UC1, cv::Scalar(0)), cv::Mat(size, CV_32FC2, cv::Scalar::all(0))};
   const Pose camera_from_world = world_from_camera.inverse();
   for (const PlacedSolid& placed : moment.solids) {
     const Pose camera_from_solid = camera_from_world * placed.world_from_solid;
+    work.view.camera_from_solid.push_back(camera_from_solid);
     work.targets.push_back(target_of(*placed.solid, camera_from_solid));
     work.reaches.push_back(reach_of(*placed.solid, camera_from_solid));
   }

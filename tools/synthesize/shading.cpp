@@ -36,12 +36,11 @@ float open_sky(const Moment& moment, Vec3 point, double up) {
 
 Shade shade(const View& view, int solid_idx, double x, double y, double depth_m) {
   const PlacedSolid& placed = view.moment.solids[static_cast<std::size_t>(solid_idx)];
-  const Vec3 ray{x, y, 1}, world = view.world_from_camera * (depth_m * ray);
-  const Pose& frame = placed.world_from_solid;
-  const SurfacePoint at = surface_at(*placed.solid, rotate_back(frame, world - frame.translation));
-  const auto into_camera = [&](Vec3 v) { return rotate_back(view.world_from_camera, frame.rotate(v)); };
-  const Vec3 normal = into_camera(at.normal), u_axis = into_camera(at.u_axis),
-             v_axis = into_camera(at.v_axis);
+  const Vec3 ray{x, y, 1};
+  const Pose& frame = view.camera_from_solid[static_cast<std::size_t>(solid_idx)];
+  const SurfacePoint at = surface_at(*placed.solid, rotate_back(frame, depth_m * ray - frame.translation));
+  const Vec3 normal = frame.rotate(at.normal), u_axis = frame.rotate(at.u_axis),
+             v_axis = frame.rotate(at.v_axis);
   const Vec3 right = hit_change(ray, depth_m, normal, normal.x, {1, 0, 0}, view.pixel_angle);
   const Vec3 down = hit_change(ray, depth_m, normal, normal.y, {0, 1, 0}, view.pixel_angle);
   const Footprint footprint{static_cast<float>(dot(right, u_axis)), static_cast<float>(dot(right, v_axis)),
@@ -51,7 +50,8 @@ Shade shade(const View& view, int solid_idx, double x, double y, double depth_m)
           .materials[static_cast<std::size_t>(placed.solid->materials[static_cast<std::size_t>(at.face)])];
   const Rgb paint = material.tint * view.scene.textures[static_cast<std::size_t>(material.texture)].sample(
                                         at.u_m, at.v_m, footprint);
-  const Vec3 outward = frame.rotate(at.normal);
+  const Vec3 world = view.world_from_camera * (depth_m * ray),
+             outward = placed.world_from_solid.rotate(at.normal);
   const bool fixed = placed.fixed_idx >= 0;
   const Rgb light = fixed ? view.lighting.on_face(placed.fixed_idx, at.face, at.u_m, at.v_m)
                           : view.lighting.in_air(world, outward);

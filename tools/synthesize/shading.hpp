@@ -10,7 +10,8 @@ struct View {
   const Lighting& lighting;
   const Moment& moment;
   Pose world_from_camera;
-  double pixel_angle;  ///< distance between neighbouring rays: 1 / focal length in pixels
+  std::vector<Pose> camera_from_solid;  ///< by solid of the moment
+  double pixel_angle;                   ///< distance between neighbouring rays: 1 / focal length in pixels
 };
 
 /// A hit of a ray, ready to be shown.

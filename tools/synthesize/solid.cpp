@@ -38,7 +38,7 @@ SurfacePoint round_surface(const Solid& solid, Vec3 p) {
   SurfacePoint at;
   const double length_m = solid.size.z;
   p.y /= solid.flatten;
-  const double radial = std::max(std::hypot(p.x, p.y), 1e-9);
+  const double radial = std::max(std::sqrt(p.x * p.x + p.y * p.y), 1e-9);
   const Vec3 outward{p.x / radial, p.y / radial, 0};
   const double mean_radius =
       solid.shape == Shape::cylinder ? solid.size.x : (solid.size.x + solid.size.y) / 2;
@@ -60,7 +60,7 @@ SurfacePoint round_surface(const Solid& solid, Vec3 p) {
     // Foot of the surface normal on the axis.
     const double foot = std::clamp(p.z - radial * slope / cosine, 0.0, length_m);
     at.normal = normalized({p.x, p.y, p.z - foot});
-    const double out = std::hypot(at.normal.x, at.normal.y);
+    const double out = std::sqrt(at.normal.x * at.normal.x + at.normal.y * at.normal.y);
     at.v_axis = {outward.x * at.normal.z, outward.y * at.normal.z, -out};
   }
   if (solid.flatten != 1) at.normal = normalized({at.normal.x, at.normal.y / solid.flatten, at.normal.z});

@@ -10,7 +10,8 @@ namespace sediment::synthetic {
 /// Convex shapes that everything in the room is made of, each in a frame of its own.
 enum class Shape : std::uint8_t {
   box,       ///< |x| <= size.x, |y| <= size.y, |z| <= size.z
-  capsule,   ///< hull of a sphere of radius size.x at the origin and one of radius size.y at (0, 0, size.z)
+  capsule,   ///< hull of balls of radius size.x at the origin and size.y at (0, 0, size.z), none inside the
+             ///< other
   cylinder,  ///< radius size.x, z from 0 to size.z
 };
 

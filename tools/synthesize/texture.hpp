@@ -31,27 +31,38 @@ struct Footprint {
   float du_dx = 0, dv_dx = 0, du_dy = 0, dv_dy = 0;
 };
 
+/// A pattern and the surface that it is for.
+struct Sheet {
+  Pattern pattern;
+  double width_m, height_m;
+  double texel_m;
+  bool repeat;  ///< beyond its border; else the border continues
+};
+
 /// A pattern baked into a pyramid of images, so that a pixel sees the mean of its footprint: no aliasing,
 /// which would move features from frame to frame.
 class Texture {
  public:
-  /// Covers width_m x height_m and repeats beyond (with `repeat`) or continues its border.
-  Texture(const Pattern& pattern, double width_m, double height_m, double texel_m, bool repeat);
+  explicit Texture(const Sheet& sheet);
 
   /// Trilinear, with up to four probes along the footprint's longer axis.
   Rgb sample(float u_m, float v_m, const Footprint& footprint) const;
-  std::size_t bytes() const;
 
  private:
+  using Texel = std::array<std::uint8_t, 4>;  ///< r g b 0
   struct Level {
     int width, height;
-    std::vector<std::array<std::uint8_t, 4>> texels;
+    std::vector<Texel> texels;
+
+    const Texel& at(int row, int column) const {
+      return texels[static_cast<std::size_t>(row) * width + column];
+    }
   };
-  Rgb bilinear(const Level& level, float u, float v) const;
+  static Level halved(const Level& fine);
 
   std::vector<Level> levels_;
-  float texels_per_m_u_, texels_per_m_v_;
-  bool repeat_;
+  float texels_per_m_u_ = 0, texels_per_m_v_ = 0;
+  bool repeat_ = false;  ///< width and height of all levels are powers of two
 };
 
 }  // namespace sediment::synthetic

@@ -1,22 +1,32 @@
 #include "tools/synthesize/workshop.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "tools/synthesize/patterns.hpp"
 
 namespace sediment::synthetic {
 
 int Workshop::tiled(const Pattern& pattern, double period_m, double coarseness, Rgb tint) {
-  scene.textures.emplace_back(pattern, period_m, period_m, texel_m_ * coarseness, true);
-  scene.materials.push_back({static_cast<int>(scene.textures.size()) - 1, tint});
+  sheets_.push_back({pattern, period_m, period_m, texel_m_ * coarseness, true});
+  scene.materials.push_back({static_cast<int>(sheets_.size()) - 1, tint});
   return static_cast<int>(scene.materials.size()) - 1;
 }
 
 int Workshop::sheet(const Pattern& pattern, double width_m, double height_m, double coarseness) {
-  scene.textures.emplace_back(pattern, width_m, height_m, texel_m_ * coarseness, false);
-  scene.materials.push_back({static_cast<int>(scene.textures.size()) - 1});
+  sheets_.push_back({pattern, width_m, height_m, texel_m_ * coarseness, false});
+  scene.materials.push_back({static_cast<int>(sheets_.size()) - 1});
   return static_cast<int>(scene.materials.size()) - 1;
+}
+
+Scene Workshop::finish() && {
+  std::vector<std::optional<Texture>> baked(sheets_.size());
+  tbb::parallel_for(std::size_t{0}, sheets_.size(), [&](std::size_t i) { baked[i].emplace(sheets_[i]); });
+  for (auto& texture : baked) scene.textures.push_back(std::move(*texture));
+  return std::move(scene);
 }
 
 int Workshop::tinted(int original, Rgb tint) {

@@ -8,7 +8,7 @@
 
 namespace sediment::synthetic {
 
-/// Builds a scene piece by piece: bakes textures, names materials, assembles solids.
+/// Builds a scene piece by piece: names materials, assembles solids, and bakes all textures at the end.
 class Workshop {
  public:
   /// `texel_m` is the finest texel worth having: about a pixel seen from a metre.
@@ -24,6 +24,9 @@ class Workshop {
   /// Plain material with a fine grain.
   int plain(Rgb color);
 
+  /// Bakes the textures: the scene is done.
+  Scene finish() &&;
+
   /// Adds a body and returns its index.
   int add(std::string name, std::string class_name, bool instance, std::vector<Solid> solids);
 
@@ -32,6 +35,7 @@ class Workshop {
 
  private:
   double texel_m_;
+  std::vector<Sheet> sheets_;
   int grain_ = -1;
 };
 
