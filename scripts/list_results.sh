@@ -31,7 +31,7 @@ for manifest in */manifest.json; do
       count=$(find -L "$path" -type f | wc -l)
       bytes=$(find -L "$path" -type f -printf '%s\n' | awk '{ sum += $1 } END { print sum + 0 }')
       printf '%-46s %10s  %s files\n' "$path/" "$(human "$bytes")" "$count"
-    elif [ "$path" != "$manifest" ]; then
+    elif [[ $path != "$manifest" && $path != */metrics.json ]]; then
       printf '%-46s %10s  %s\n' "$path" "$(human "$(stat -Lc %s "$path")")" "$(content_of "$path")"
     fi
   done

@@ -133,6 +133,8 @@ esac
 if [ -z "$model$masks" ] && grep -qF '${MODEL}' "$config"; then
   wrong_call "who is in the pictures? --model FILE (a network) or --masks DIR (masks of your own)"
 fi
+if [ -n "$masks" ] && ! grep -qF '${MASKS}' "$config"; then wrong_call "$config reads no masks"; fi
+if [ -n "$poses" ] && ! grep -qF '${POSES}' "$config"; then wrong_call "$config reads no poses"; fi
 if [ -n "$name" ] && [ -n "$data" ]; then wrong_call "a sequence's name ($name) or --data, not both"; fi
 if [ -z "$data" ]; then
   [ -n "$name" ] || wrong_call "which sequence? a name of the benchmark or --data DIR"
