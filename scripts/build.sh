@@ -19,7 +19,7 @@ while [ $# -gt 0 ]; do
     -*) echo "build: unknown flag $1 (--help explains)" >&2; exit 2 ;;
     programs)  # a stage's or tool's folder has the name of its executable
       targets+=(sediment)
-      for list in stages/*/CMakeLists.txt tools/*/CMakeLists.txt; do targets+=("$(basename "$(dirname "$list")")"); done ;;
+      for main in stages/*/main.cpp tools/*/main.cpp; do targets+=("$(basename "$(dirname "$main")")"); done ;;
     *) targets+=("$1") ;;
   esac
   shift

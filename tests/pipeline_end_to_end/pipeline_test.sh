@@ -10,7 +10,7 @@ unset MODEL POSES
 out=$tmp/out
 
 # states STATE: the stages that the last run's table lists in that state, in its order.
-states() { awk -v state="$1" '$2 == state { printf "%s ", $1 }' <<<"$output"; }
+states() { awk -v state="$1" '$1 !~ /:$/ && $2 == state { printf "%s ", $1 }' <<<"$output"; }
 
 run map "$out" --set sor.neighbor=30
 check "a mistyped parameter is a wrong call" same "$code" 2
@@ -35,7 +35,7 @@ check "touched files start nothing" same "$(states ran)" ""
 run "$bin/sediment" plan "$paper" --out "$out" --set segment.engine=given --set sor.neighbors=30
 check "plan names the changed parameter" says sor
 check "plan changes nothing" same "$(results "$out")" "$before"
-run "$bin/sediment" why sor "$paper" --out "$out" --set segment.engine=given --set sor.neighbors=30
+run "$bin/sediment" why "$paper" sor --out "$out" --set segment.engine=given --set sor.neighbors=30
 check "why names the parameter" says neighbors
 run map "$out" --set sor.neighbors=30
 check "a changed parameter of sor reruns sor and what is behind it" same "$(states ran)" "sor voxel octree project2d "
