@@ -23,7 +23,7 @@
 #                        what has not changed is kept
 #
 # example
-#   scripts/run_tum.sh fr3/walking_xyz --model yolov8s-seg.onnx --set voxel.leaf_m=0.02
+#   scripts/run_tum.sh fr3/walking_xyz --model yolov8s-seg.onnx --set voxel.leaf=0.02
 #
 # Exit code: 0 all done, 1 something failed (the message names it), 2 the call is wrong, 130 interrupted.
 set -euo pipefail

@@ -10,7 +10,7 @@ unset MODEL POSES
 out=$tmp/out
 
 # states STATE: the stages that the last run's table lists in that state, in its order.
-states() { awk -v state="$1" '$1 !~ /:$/ && $2 == state { printf "%s ", $1 }' <<<"$output"; }
+states() { awk -v state="$1" '$1 ~ /^[a-z][a-z0-9-]*$/ && $2 == state { printf "%s ", $1 }' <<<"$output"; }
 
 run map "$out" --set sor.neighbor=30
 check "a mistyped parameter is a wrong call" same "$code" 2

@@ -16,8 +16,7 @@ mkdir "$short"
 ln -s "$recorded/rgb" "$recorded/depth" "$recorded/groundtruth.txt" "$short/"
 for list in rgb depth; do grep -v '^#' "$recorded/$list.txt" | head -n 12 >"$short/$list.txt"; done
 
-run "$root/scripts/run_tum.sh" --data "$short" --model "$shared/models/yolov8n-seg-320.onnx" --out "$tmp/out" \
-  --set project2d.ground=0,0,1,0
+run "$root/scripts/run_tum.sh" --data "$short" --model "$shared/models/yolov8n-seg-320.onnx" --out "$tmp/out"
 check "all stages run" same "$code" 0
 [ "$code" = 0 ] || printf '%s\n' "$output"
 check "others can read the maps" "$readers" "$tmp/out"

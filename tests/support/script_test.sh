@@ -4,6 +4,7 @@ set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 tmp=$(mktemp -d)
 trap 'kill $(jobs -p) 2>/dev/null; rm -rf "$tmp"' EXIT
+export SEDIMENT_BIN=${SEDIMENT_BIN:-$root/build/release/bin}
 failures=0
 
 # check SENTENCE COMMAND...: the command succeeds.
