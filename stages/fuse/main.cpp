@@ -1,111 +1,17 @@
-#include <tbb/parallel_pipeline.h>
-
 #include <optional>
 
-#include "pipeline/artifacts/cloud_writer.hpp"
-#include "pipeline/artifacts/dynamic_masks.hpp"
 #include "pipeline/artifacts/label_file.hpp"
-#include "pipeline/artifacts/masks.hpp"
-#include "pipeline/artifacts/sequence.hpp"
-#include "pipeline/artifacts/trajectory_file.hpp"
 #include "pipeline/contract/progress.hpp"
 #include "pipeline/contract/stage.hpp"
-#include "stages/fuse/back_projection.hpp"
-#include "stages/fuse/frame_selection.hpp"
+#include "stages/fuse/fuse_sequence.hpp"
 
 using namespace sediment;
 using namespace sediment::fuse;
 
 namespace {
 
-struct Parameters {
-  FrameChoice frames = FrameChoice::keyframes;
-  int every_nth = 5;
-  Projection projection;
-  PcdEncoding encoding = PcdEncoding::binary;
-};
-
-/// What one frame adds to the map.
-struct Piece {
-  LabelledCloud points;
-  PixelCounts counts;
-};
-
-Selection selection_of(const Sequence& sequence, const contract::Work& work, const Parameters& parameters) {
-  std::vector<FrameStamp> stamps;
-  for (std::size_t i = 0; i < sequence.size(); ++i)
-    stamps.push_back({sequence.entry(i).stamp, sequence.entry(i).stamp_s});
-  const bool by_keyframes = parameters.frames == FrameChoice::keyframes;
-  return select_frames(stamps, read_trajectory(work.in("trajectory")),
-                       by_keyframes ? read_keyframes(work.in("trajectory")) : Trajectory{}, parameters.frames,
-                       parameters.every_nth);
-}
-
-/// Reads and back-projects single frames; safe to call from several threads.
-class FrameSource {
- public:
-  FrameSource(const Sequence& sequence, const contract::Work& work, const Projection& projection)
-      : sequence_(sequence), projection_(projection), rays_(rays_of(sequence.camera())) {
-    if (work.has("masks")) masks_.emplace(work.in("masks"));
-    if (work.has("dynamic")) dynamic_.emplace(work.in("dynamic"));
-    labels_ = work.has("labels") ? read_labels(work.in("labels")) : default_labels();
-  }
-
-  const LabelTable& labels() const { return labels_; }
-
-  Piece operator()(const PosedFrame& posed) const {
-    const std::string& stamp = sequence_.entry(posed.frame_idx).stamp;
-    Frame frame = sequence_.frame(posed.frame_idx);
-    const View view{frame.color, frame.depth, masks_ ? masks_->read(stamp) : InstanceMask{},
-                    dynamic_ ? dynamic_->read(stamp) : cv::Mat{}, posed.world_from_camera};
-    Piece piece;
-    try {
-      piece.counts = back_project(view, sequence_.camera(), rays_, labels_, projection_, piece.points);
-    } catch (const std::invalid_argument& error) {
-      throw std::runtime_error("frame " + stamp + ": " + error.what());
-    }
-    return piece;
-  }
-
- private:
-  const Sequence& sequence_;
-  Projection projection_;
-  std::vector<Ray> rays_;
-  std::optional<MasksReader> masks_;
-  std::optional<DynamicMasksReader> dynamic_;
-  LabelTable labels_;
-};
-
-/// Frames are read and back-projected in parallel and appended in their order; only a few are in memory at a
-/// time.
-PixelCounts fuse_frames(const std::vector<PosedFrame>& frames, const FrameSource& source,
-                        std::size_t in_flight, CloudWriter& writer) {
-  PixelCounts total;
-  std::size_t next = 0;
-  contract::Progress progress("fuse", frames.size(), "frames");
-  const auto number_frames =
-      tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) {
-        if (next == frames.size()) flow.stop();
-        return next++;
-      });
-  const auto project = tbb::make_filter<std::size_t, Piece>(tbb::filter_mode::parallel,
-                                                            [&](std::size_t i) { return source(frames[i]); });
-  const auto append =
-      tbb::make_filter<Piece, void>(tbb::filter_mode::serial_in_order, [&](const Piece& piece) {
-        writer.append(piece.points);
-        total += piece.counts;
-        progress.advance();
-      });
-  tbb::parallel_pipeline(in_flight, number_frames & project & append);
-  return total;
-}
-
-[[noreturn]] void fail_empty(const Selection& selection, const PixelCounts& counts) {
-  throw std::runtime_error(
-      "no point for the map: of " + std::to_string(selection.frames.size() + selection.without_pose.size()) +
-      " selected frames " + std::to_string(selection.without_pose.size()) + " have no pose; of " +
-      std::to_string(counts.visited) + " pixels visited " + std::to_string(counts.dynamic) +
-      " are dynamic and " + std::to_string(counts.out_of_range) + " have no depth in the range");
+std::optional<std::filesystem::path> given(const contract::Work& work, const std::string& role) {
+  return work.has(role) ? std::optional(work.in(role)) : std::nullopt;
 }
 
 }  // namespace
@@ -140,18 +46,21 @@ int main(int argc, char** argv) {
 
   return stage.run(argc, argv, [&](contract::Work& work) {
     const Sequence sequence = Sequence::open(work.in("sequence"));
-    const Selection selection = selection_of(sequence, work, parameters);
-    const FrameSource source(sequence, work, projection);
-    CloudWriter writer(work.out(), parameters.encoding);
-    const auto counts =
-        fuse_frames(selection.frames, source, 2 * static_cast<std::size_t>(work.threads()), writer);
-    if (writer.size() == 0) fail_empty(selection, counts);
-    work.metrics() = {{"points", writer.size()},
-                      {"frames_fused", selection.frames.size()},
-                      {"frames_without_pose", selection.without_pose},
-                      {"pixels_visited", counts.visited},
-                      {"pixels_dynamic", counts.dynamic},
-                      {"pixels_out_of_range", counts.out_of_range}};
-    writer.finish(source.labels());
+    const LabelTable labels = work.has("labels") ? read_labels(work.in("labels")) : default_labels();
+    const Sources sources{work.in("trajectory"), given(work, "masks"), given(work, "dynamic")};
+    std::optional<contract::Progress> progress;
+    const auto on_frame = [&](std::size_t frames) {
+      if (!progress) progress.emplace("fuse", frames, "frames");
+      progress->advance();
+    };
+    const FuseResult result =
+        fuse_sequence(sequence, sources, labels, parameters, 2 * static_cast<std::size_t>(work.threads()),
+                      work.out(), on_frame);
+    work.metrics() = {{"points", result.points},
+                      {"frames_fused", result.frames_fused},
+                      {"frames_without_pose", result.frames_without_pose},
+                      {"pixels_visited", result.pixels.visited},
+                      {"pixels_dynamic", result.pixels.dynamic},
+                      {"pixels_out_of_range", result.pixels.out_of_range}};
   });
 }
