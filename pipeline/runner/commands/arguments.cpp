@@ -57,6 +57,10 @@ void add_run_flags(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(0, 1024));
   app.add_flag("-k,--keep-going", arguments.keep_going,
                "After a failure go on with what does not depend on it");
+  app.add_option("--resource", arguments.resources,
+                 "What stages may take in all [cpus and memory of this machine]")
+      ->type_name("NAME=AMOUNT")
+      ->allow_extra_args(false);
   app.add_flag("--durable", arguments.durable,
                "Wait until each result is on the disk (fsync) before it counts");
   app.add_flag("--no-space-check", arguments.no_space_check,

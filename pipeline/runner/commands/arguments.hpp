@@ -14,6 +14,7 @@ struct Arguments {
   std::string stage;  ///< of why, may be empty
   std::string only, from, until;
   std::vector<std::string> set;
+  std::vector<std::string> resources;        ///< what this machine has, name=amount
   std::filesystem::path out, store, stages;  ///< empty: their defaults
   int jobs = 0;                              ///< 0 = one per core
   int threads = 0;                           ///< 0 = all cores

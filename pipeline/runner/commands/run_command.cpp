@@ -43,6 +43,13 @@ void record(const Instance& instance, const std::vector<Task>& tasks) {
   if (stages != before) workspace.write_record(stages);
 }
 
+/// Every stage must be able to run at all.
+void check_resources(const Graph& graph, const Amounts& capacity) {
+  for (const PlannedStage& stage : graph.stages)
+    if (const std::string missing = shortage(stage.resources.amounts, capacity); !missing.empty())
+      throw contract::UsageError("stage " + stage.name + ": " + missing);
+}
+
 int exit_code(const std::vector<Task>& tasks, bool interrupted) {
   if (interrupted) return contract::kInterrupted;
   const bool all_done = std::all_of(tasks.begin(), tasks.end(), [](const Task& task) {
@@ -60,15 +67,16 @@ int run(const Arguments& arguments) {
   Store& store = *opened.store;
   for (const PlannedStage& stage : opened.instance.graph->stages)
     Workspace(opened.instance.out).check(stage.name);
-  store.make(arguments.durable);
-  store.remove_dead_attempts();
-
   RunOptions options;
   options.jobs = arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::thread::hardware_concurrency());
   options.threads = arguments.threads;
+  options.capacity = capacity_of_machine(arguments.resources);
+  check_resources(*opened.instance.graph, options.capacity);
   options.keep_going = arguments.keep_going;
   options.check_space = !arguments.no_space_check;
   options.logs = store.root() / "runs" / run_id();
+  store.make(arguments.durable);
+  store.remove_dead_attempts();
   Display display;
   const std::vector<Instance> instances{std::move(opened.instance)};
   Scheduler scheduler(instances, store, options, signals, display);

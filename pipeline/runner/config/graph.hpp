@@ -6,6 +6,7 @@
 
 #include "pipeline/runner/config/pipeline_file.hpp"
 #include "pipeline/runner/config/program.hpp"
+#include "pipeline/runner/config/resources.hpp"
 
 namespace sediment::runner {
 
@@ -35,7 +36,8 @@ struct PlannedStage {
   std::string name;
   std::shared_ptr<const Program> program;
   std::vector<Input>
-      inputs;             ///< in the order of the declaration; optional ones that are not given are left out
+      inputs;  ///< in the order of the declaration; optional ones that are not given are left out
+  Resources resources;
   contract::Json params;  ///< every parameter, canonical: defaults overlaid by the YAML and --set
 };
 

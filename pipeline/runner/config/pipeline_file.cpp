@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <fstream>
-#include <functional>
 #include <iterator>
-#include <map>
-#include <set>
 
 #include "pipeline/contract/errors.hpp"
 #include "pipeline/runner/config/variables.hpp"
+#include "pipeline/runner/config/yaml_mapping.hpp"
 
 namespace sediment::runner {
 namespace {
@@ -18,71 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using contract::Json;
 using contract::UsageError;
-
-int line_of(const YAML::Node& node) {
-  return node.Mark().line + 1;
-}
-
-/// One mapping of the file: hands each known key to its reader; unknown keys, repeated keys (YAML would keep
-/// one of them in silence) and values of another shape are violations.
-class Mapping {
- public:
-  using Reader = std::function<void(const YAML::Node& key, const YAML::Node& value)>;
-
-  Mapping(std::string what, Violations& violations) : what_(std::move(what)), violations_(violations) {}
-  Mapping& key(const std::string& name, Reader reader) {
-    readers_[name] = std::move(reader);
-    return *this;
-  }
-  /// Reads keys that are names chosen by the user.
-  Mapping& any(Reader reader) {
-    any_ = std::move(reader);
-    return *this;
-  }
-  void read(const YAML::Node& node, int line) const {
-    if (node.IsNull()) return;
-    if (!node.IsMap()) return violations_.add(line, what_ + ": expected a mapping of names to values");
-    std::set<std::string> seen;
-    for (const auto& pair : node) {
-      if (!pair.first.IsScalar()) {
-        violations_.add(line_of(pair.first), what_ + ": a key must be a name");
-        continue;
-      }
-      const std::string name = pair.first.Scalar();
-      if (!seen.insert(name).second)
-        violations_.add(line_of(pair.first), what_ + ": \"" + name + "\" is there twice");
-      else if (const auto known = readers_.find(name); known != readers_.end())
-        known->second(pair.first, pair.second);
-      else if (any_)
-        any_(pair.first, pair.second);
-      else
-        violations_.add(line_of(pair.first),
-                        what_ + ": unknown key \"" + name + "\"" + did_you_mean(name, names()));
-    }
-  }
-
- private:
-  std::vector<std::string> names() const {
-    std::vector<std::string> all;
-    for (const auto& [name, reader] : readers_) all.push_back(name);
-    return all;
-  }
-
-  std::string what_;
-  Violations& violations_;
-  std::map<std::string, Reader> readers_;
-  Reader any_;
-};
-
-/// Reads a scalar into a text.
-Mapping::Reader text_into(std::string& text, const std::string& what, Violations& violations) {
-  return [&text, &violations, what](const YAML::Node& key, const YAML::Node& value) {
-    if (value.IsScalar())
-      text = value.Scalar();
-    else
-      violations.add(line_of(key), what + ": expected a text for \"" + key.Scalar() + '"');
-  };
-}
 
 SourceEntry read_source(const YAML::Node& key, const YAML::Node& value, Violations& violations) {
   SourceEntry source{key.Scalar(), "", "", false, line_of(key)};
@@ -117,7 +50,7 @@ ParameterEntry read_parameter(const YAML::Node& key, const YAML::Node& value, co
 }
 
 StageEntry read_stage(const YAML::Node& key, const YAML::Node& value, Violations& violations) {
-  StageEntry stage{key.Scalar(), {}, {}, line_of(key)};
+  StageEntry stage{key.Scalar(), {}, {}, {}, line_of(key)};
   const std::string what = "stage " + stage.name;
   const auto read_role = [&](const YAML::Node& role, const YAML::Node& from) {
     ReadEntry read{role.Scalar(), "", line_of(role)};
@@ -128,6 +61,18 @@ StageEntry read_stage(const YAML::Node& key, const YAML::Node& value, Violations
     stage.params.push_back(read_parameter(name, item, stage.name, violations));
     if (stage.params.back().value.is_null()) stage.params.pop_back();
   };
+  const auto read_resource = [&](const YAML::Node& name, const YAML::Node& amount) {
+    std::string text;
+    text_into(text, what, violations)(name, amount);
+    try {
+      if (name.Scalar() == "time")
+        stage.resources.time_s = seconds_from(text);
+      else
+        stage.resources.amounts[name.Scalar()] = amount_from(name.Scalar(), text);
+    } catch (const UsageError& error) {
+      violations.add(line_of(name), what + ": " + error.what());
+    }
+  };
   Mapping(what, violations)
       .key("reads",
            [&](const auto& k, const auto& v) {
@@ -136,6 +81,15 @@ StageEntry read_stage(const YAML::Node& key, const YAML::Node& value, Violations
       .key("params",
            [&](const auto& k, const auto& v) {
              Mapping(what + " params", violations).any(read_param).read(v, line_of(k));
+           })
+      .key("resources",
+           [&](const auto& k, const auto& v) {
+             Mapping(what + " resources", violations).any(read_resource).read(v, line_of(k));
+           })
+      .key("retries",
+           [&](const auto& k, const auto& v) {
+             if (!YAML::convert<int>::decode(v, stage.resources.retries) || stage.resources.retries < 0)
+               violations.add(line_of(k), what + ": expected a whole number for \"retries\"");
            })
       .read(value, stage.line);
   return stage;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipeline/contract/parameter.hpp"
+#include "pipeline/runner/config/resources.hpp"
 #include "pipeline/runner/config/violations.hpp"
 
 namespace sediment::runner {
@@ -34,6 +35,7 @@ struct StageEntry {
   std::string name;
   std::vector<ReadEntry> reads;
   std::vector<ParameterEntry> params;
+  Resources resources;
   int line = 0;
 };
 

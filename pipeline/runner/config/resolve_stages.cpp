@@ -162,7 +162,7 @@ std::vector<PlannedStage> resolve_stages(const PipelineFile& pipeline, const std
                                          Violations& violations) {
   Resolution all{pipeline, settings, sources, violations, {}};
   for (const StageEntry& entry : pipeline.stages) {
-    PlannedStage stage{entry.name, nullptr, {}, Json::object()};
+    PlannedStage stage{entry.name, nullptr, {}, entry.resources, Json::object()};
     try {
       stage.program = programs.find(entry.name);
     } catch (const contract::UsageError& error) {

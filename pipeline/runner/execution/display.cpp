@@ -52,13 +52,17 @@ void Display::say(const std::string& line) {
   std::fprintf(stderr, "%s\n", line.c_str());
 }
 
-void Display::started(const Task& task, const Attempt& attempt) {
-  running_.push_back({&task.label, &attempt});
+void Display::started(const Task& task, const Attempt& attempt, double expected_s) {
+  running_.push_back({&task.label, &attempt, expected_s});
   say(fmt::format("{}: runs ({})", task.label, task.why));
 }
 
 void Display::stopped(const Task& task) {
   running_.remove_if([&](const Running& one) { return one.label == &task.label; });
+}
+
+void Display::retries(const Task& task, const std::string& what, int allowed) {
+  say(fmt::format("{}: {}; retry {} of {}{}", task.label, what, task.retries, allowed, end_of_log(task.log)));
 }
 
 void Display::waits(const Task& task) {
@@ -86,6 +90,7 @@ std::string Display::live_line() const {
   std::string line = fmt::format("[{}/{}]", ended_, tasks_);
   for (const Running& one : running_) {
     line += fmt::format("  {} {:.1f} s", *one.label, one.attempt->seconds());
+    if (one.expected_s >= 1) line += fmt::format(" of about {:.0f} s", one.expected_s);
     const std::string said = one.attempt->last_words();
     if (!said.empty()) line += " (" + said + ')';
   }

@@ -16,7 +16,9 @@ class Display {
   Display();
 
   void begin(std::size_t tasks);
-  void started(const Task& task, const Attempt& attempt);
+  /// `expected_s`: what it took the last time, 0 if that is not known.
+  void started(const Task& task, const Attempt& attempt, double expected_s);
+  void retries(const Task& task, const std::string& what, int allowed);
   void stopped(const Task& task);  ///< it runs no longer; its attempt is about to go
   void waits(const Task& task);    ///< for the same result, which another runner makes
   void ended(const Task& task);
@@ -27,6 +29,7 @@ class Display {
   struct Running {
     const std::string* label;
     const Attempt* attempt;
+    double expected_s;
   };
 
   void say(const std::string& line);

@@ -9,13 +9,11 @@ namespace sediment::runner {
 namespace fs = std::filesystem;
 using contract::Json;
 
-Reason reason_for(const Key& key, const std::string& stage, const std::map<std::string, StageRecord>& last,
-                  const Store& store) {
-  const auto record = last.find(stage);
-  if (record == last.end()) return {"first run", {}};
-  if (record->second.key.empty()) return {record->second.state == "failed" ? "it failed" : "first run", {}};
-  if (record->second.key == key.id) return {"its result is lost or damaged", {}};
-  const auto receipt = store.receipt(record->second.key);
+Reason reason_for(const Key& key, const StageRecord* last, const Store& store) {
+  if (last == nullptr) return {"first run", {}};
+  if (last->key.empty()) return {last->state == "failed" ? "it failed" : "first run", {}};
+  if (last->key == key.id) return {"its result is lost or damaged", {}};
+  const auto receipt = store.receipt(last->key);
   if (!receipt) return {"its last receipt is lost", {}};
   Reason reason{"", differences(receipt->parts, Json::parse(key.text))};
   reason.text = in_short(reason.differences);
@@ -71,10 +69,9 @@ std::vector<PlannedTask> plan(const Instance& instance, Store& store, int thread
     task.key = key_of(stages[i], *ids);
     task.hit = store.find(task.key->id);
     task.state = task.hit ? PlannedTask::State::kept : PlannedTask::State::runs;
-    if (task.hit)
-      objects[i] = task.hit->object;
-    else
-      task.why = reason_for(*task.key, stages[i].name, last, store);
+    if (task.hit) objects[i] = task.hit->object;
+    const auto record = last.find(stages[i].name);
+    if (!task.hit) task.why = reason_for(*task.key, record == last.end() ? nullptr : &record->second, store);
     if (!task.hit && !instance.selected[i]) task.why.text += " (not selected: a run would stop here)";
   }
   return tasks;

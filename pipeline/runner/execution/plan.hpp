@@ -18,9 +18,8 @@ struct Reason {
   std::vector<Difference> differences;  ///< against the last result of the same instance
 };
 
-/// Compares a key that is not in the store with what the stage last had.
-Reason reason_for(const Key& key, const std::string& stage, const std::map<std::string, StageRecord>& last,
-                  const Store& store);
+/// Compares a key that is not in the store with what the stage last had, if it had anything.
+Reason reason_for(const Key& key, const StageRecord* last, const Store& store);
 
 /// What a run would do with a stage.
 struct PlannedTask {

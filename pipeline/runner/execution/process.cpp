@@ -85,10 +85,14 @@ pid_t start(const Launch& launch) {
 }
 
 std::optional<Ending> reap(pid_t pid) {
+  siginfo_t info{};
+  if (waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != pid)
+    return std::nullopt;
+  signal_group(pid,
+               SIGKILL);  // while the dead leader still keeps the number of the group from being used anew
   int status = 0;
   rusage usage{};
-  const pid_t ended = wait4(pid, &status, WNOHANG, &usage);
-  if (ended != pid) return std::nullopt;
+  wait4(pid, &status, 0, &usage);
   const auto seconds = [](const timeval& time) {
     return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
   };

@@ -34,7 +34,8 @@ struct Ending {
 /// std::runtime_error naming the program if it cannot be started.
 pid_t start(const Launch& launch);
 
-/// The ending of a started program if it has ended; does not wait.
+/// The ending of a started program if it has ended; does not wait. What is left of its process group is
+/// killed.
 std::optional<Ending> reap(pid_t pid);
 
 /// Signals the whole process group.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "pipeline/contract/errors.hpp"
 #include "pipeline/runner/execution/disk_space.hpp"
 
 namespace sediment::runner {
@@ -13,224 +14,196 @@ namespace {
 constexpr int kTick_ms = 100, kLockRetry_ms = 20;
 constexpr double kGrace_s = 5;
 
+/// What an attempt asks for: with every retry twice the memory, as far as there is so much.
+Amounts wanted(const PlannedStage& stage, int retries, const Amounts& capacity) {
+  Amounts amounts = stage.resources.amounts;
+  amounts.try_emplace("cpus", 1);
+  if (const auto memory = amounts.find("memory"); memory != amounts.end())
+    memory->second = std::min(memory->second << retries, capacity.at("memory"));
+  return amounts;
+}
+
 }  // namespace
 
 Scheduler::Scheduler(const std::vector<Instance>& instances, Store& store, RunOptions options,
                      Signals& signals, Display& display)
-    : instances_(instances),
-      store_(store),
+    : store_(store),
       options_(std::move(options)),
       signals_(signals),
-      display_(display) {}
+      display_(display),
+      board_(instances, store, display),
+      crew_(options_.jobs, options_.capacity) {}
 
 std::vector<Task> Scheduler::run() {
-  tasks_ = tasks_of(instances_);
-  for (const Instance& instance : instances_) objects_.emplace_back(instance.graph->stages.size());
-  for (std::size_t i = 0; i < tasks_.size(); ++i)
-    if (tasks_[i].waits_for == 0 && tasks_[i].outcome == Outcome::open) undecided_.insert(i);
-  display_.begin(static_cast<std::size_t>(std::count_if(
-      tasks_.begin(), tasks_.end(), [](const Task& task) { return task.outcome == Outcome::open; })));
   while (true) {
-    locked_out_ = false;
-    while (!undecided_.empty()) decide(undecided_.extract(undecided_.begin()).value());
+    while (const auto task = board_.next()) decide(*task);
     launch_ready();
-    if (!undecided_.empty()) continue;
-    if (running_.empty() && (ready_.empty() || stopping_)) break;
+    if (const auto task = board_.next()) {
+      decide(*task);
+      continue;
+    }
+    if (crew_.empty() && (ready_.empty() || stopping_)) break;
     wait();
   }
   display_.end();
-  std::erase_if(tasks_, [](const Task& task) { return task.outcome == Outcome::skipped; });
-  return std::move(tasks_);
+  return board_.take();
 }
 
 void Scheduler::decide(std::size_t task_idx) {
-  Task& task = tasks_[task_idx];
-  const Instance& instance = instances_[task.instance_idx];
-  const PlannedStage& stage = instance.graph->stages[task.stage_idx];
-  Key key = key_of(stage, *input_ids(instance, task.stage_idx, objects_[task.instance_idx]));
+  Task& task = board_.task(task_idx);
+  Key key = board_.key_of(task);
   task.key = key.id;
-  if (const auto hit = store_.find(key.id)) return keep(task_idx, *hit);
-  if (!instance.selected[task.stage_idx])
-    return fail(task_idx,
-                "is needed, is not in the store (" + reason(task, key) + ") and was not selected to run");
-  if (const auto in_work = followers_.find(key.id); in_work != followers_.end()) {
-    in_work->second.push_back(task_idx);
+  if (const auto hit = store_.find(key.id)) {
+    task.object = hit->object;
+    task.bytes = hit->bytes;
+    if (!board_.succeed(task_idx, Outcome::kept)) stopping_ = !options_.keep_going;
     return;
   }
-  followers_[key.id];
-  ready_.push_back({task_idx, std::move(key)});
+  if (!board_.is_selected(task))
+    return fail(task_idx, "is needed, is not in the store (" + board_.reason(task, key) +
+                              ") and was not selected to run");
+  const auto [in_work, is_first] = followers_.try_emplace(key.id);
+  if (is_first)
+    ready_.push_back({task_idx, std::move(key)});
+  else
+    in_work->second.push_back(task_idx);
 }
 
+/// Starts what can start. What finds no room or is locked by another runner stays, in its order.
 void Scheduler::launch_ready() {
-  std::deque<Waiting> busy;
-  while (!ready_.empty() && !stopping_ && running_.size() < static_cast<std::size_t>(options_.jobs)) {
+  locked_out_ = false;
+  if (stopping_) return;
+  std::deque<Waiting> staying;
+  while (!ready_.empty() && !crew_.is_full() && !stopping_) {
     Waiting waiting = std::move(ready_.front());
     ready_.pop_front();
-    if (!launch(waiting)) busy.push_back(std::move(waiting));
+    const Launch launched = launch(waiting);
+    locked_out_ |= launched == Launch::locked;
+    if (launched != Launch::done) staying.push_back(std::move(waiting));
   }
-  locked_out_ = !busy.empty();
-  ready_.insert(ready_.end(), std::make_move_iterator(busy.begin()), std::make_move_iterator(busy.end()));
+  ready_.insert(ready_.begin(), std::make_move_iterator(staying.begin()),
+                std::make_move_iterator(staying.end()));
 }
 
-bool Scheduler::launch(Waiting waiting) {
+Scheduler::Launch Scheduler::launch(Waiting& waiting) {
   check_space();
-  Task& task = tasks_[waiting.task];
-  const Instance& instance = instances_[task.instance_idx];
+  Task& task = board_.task(waiting.task);
+  if (!crew_.has_room_for(wanted(board_.stage_of(task), task.retries, options_.capacity)))
+    return Launch::no_room;
   try {
     auto lock = store_.try_lock(waiting.key.id);
     if (!lock) {
       display_.waits(task);
-      return false;
+      return Launch::locked;
     }
     // Another runner may have made it between our look and our lock.
-    if (const auto hit = store_.find(waiting.key.id)) {
-      keep(waiting.task, *hit);
+    if (store_.find(waiting.key.id)) {
+      board_.reconsider(waiting.task);
       release_followers(task.key);
-      return true;
+    } else {
+      start(waiting, std::move(*lock));
     }
-    task.why = reason(task, waiting.key);
-    auto attempt = std::make_unique<Attempt>(
-        store_, std::move(*lock), std::move(waiting.key), instance.graph->stages[task.stage_idx],
-        input_paths(instance, task.stage_idx, objects_[task.instance_idx], store_), options_.threads,
-        task.why);
-    running_.push_back({waiting.task, task.key, std::move(attempt)});
-    display_.started(task, *running_.back().attempt);
   } catch (const std::exception& error) {
     fail(waiting.task, error.what() + full_disk_note(store_.root()));
     release_followers(task.key);
   }
-  return true;
+  return Launch::done;
+}
+
+void Scheduler::start(Waiting& waiting, KeyLock lock) {
+  Task& task = board_.task(waiting.task);
+  const PlannedStage& stage = board_.stage_of(task);
+  task.why = board_.reason(task, waiting.key);
+  const auto cpus = stage.resources.amounts.find("cpus");
+  const int threads = options_.threads > 0 || cpus == stage.resources.amounts.end()
+                          ? options_.threads
+                          : static_cast<int>(cpus->second);
+  Amounts taken = wanted(stage, task.retries, options_.capacity);
+  auto attempt = std::make_unique<Attempt>(store_, std::move(lock), std::move(waiting.key), stage,
+                                           board_.inputs_of(task), threads, task.why);
+  const StageRecord* last = board_.last(task);
+  const Attempt& started = crew_.add({waiting.task, std::move(taken), std::move(attempt)});
+  display_.started(task, started, last == nullptr ? 0 : last->wall_s);
 }
 
 void Scheduler::wait() {
   const auto seen = signals_.wait(locked_out_ ? kLockRetry_ms : kTick_ms);
   if (seen.interrupted) interrupt();
-  if (seen.child_ended) reap_ended();
+  if (seen.child_ended)
+    while (auto ended = crew_.take_ended()) publish(std::move(*ended));
   display_.tick();
 }
 
-void Scheduler::reap_ended() {
-  for (auto one = running_.begin(); one != running_.end();) {
-    const auto ending = reap(one->attempt->pid());
-    if (!ending) {
-      ++one;
-      continue;
-    }
-    display_.stopped(tasks_[one->task]);
-    signal_group(one->attempt->pid(), SIGKILL);  // whatever it left behind
-    publish(*one, *ending);
-    const std::string key = one->key;
-    one = running_.erase(one);  // removes the attempt's folder and frees the key
-    release_followers(key);
-  }
-}
-
-void Scheduler::publish(Running& running, const Ending& ending) {
-  Task& task = tasks_[running.task];
-  task.wall_s = running.attempt->seconds();
-  task.peak_bytes = ending.peak_bytes;
-  if (interrupted_) {
-    end(running.task, Outcome::interrupted);
-    return block_dependents(running.task);
-  }
+void Scheduler::publish(Crew::Ended ended) {
+  const std::size_t task_idx = ended.member.task;
+  Task& task = board_.task(task_idx);
+  display_.stopped(task);
+  task.wall_s = ended.member.attempt->seconds();
+  task.cpu_s = ended.ending.cpu_s;
+  task.peak_bytes = ended.ending.peak_bytes;
+  if (interrupted_) return board_.fail(task_idx, Outcome::interrupted, "");
   try {
-    const Receipt receipt = running.attempt->finish(ending);
+    const Receipt receipt = ended.member.attempt->finish(ended.ending);
     task.object = receipt.object;
     task.bytes = receipt.bytes;
-    succeed(running.task, Outcome::ran);
+    if (!board_.succeed(task_idx, Outcome::ran)) stopping_ = !options_.keep_going;
   } catch (const std::exception& error) {
-    std::error_code ignored;
-    std::filesystem::create_directories(options_.logs, ignored);
-    std::string name = task.label;
-    std::replace(name.begin(), name.end(), '/', '.');
-    const auto log = options_.logs / (name + ".log");
-    std::filesystem::rename(running.attempt->log(), log, ignored);
-    if (!ignored) task.log = log;
-    fail(running.task, error.what() + full_disk_note(store_.root()));
+    const std::string what = error.what() + full_disk_note(store_.root());
+    task.log = save_log(task, ended.member.attempt->log());
+    if (retries(ended, what))
+      board_.reconsider(task_idx);
+    else
+      fail(task_idx, what);
   }
+  ended.member.attempt.reset();  // removes its folder and frees the key
+  release_followers(task.key);
 }
 
-void Scheduler::keep(std::size_t task_idx, const Hit& hit) {
-  tasks_[task_idx].object = hit.object;
-  tasks_[task_idx].bytes = hit.bytes;
-  succeed(task_idx, Outcome::kept);
+/// Whether the stage is to be run again. A wrong call stays wrong.
+bool Scheduler::retries(const Crew::Ended& ended, const std::string& what) {
+  Task& task = board_.task(ended.member.task);
+  const int allowed = board_.stage_of(task).resources.retries;
+  if (task.retries >= allowed || stopping_ || ended.ending.exit_code == contract::kWrongCall) return false;
+  ++task.retries;
+  display_.retries(task, what, allowed);
+  return true;
 }
 
-/// A result that is there, made or kept.
-void Scheduler::succeed(std::size_t task_idx, Outcome outcome) {
-  const Task& task = tasks_[task_idx];
-  const Instance& instance = instances_[task.instance_idx];
-  try {
-    Workspace(instance.out).link(instance.graph->stages[task.stage_idx].name, task.object, store_);
-  } catch (const std::exception& error) {
-    return fail(task_idx, std::string("its result cannot be linked: ") + error.what());
-  }
-  end(task_idx, outcome);
-  objects_[task.instance_idx][task.stage_idx] = task.object;
-  for (const std::size_t next : task.dependents)
-    if (--tasks_[next].waits_for == 0) undecided_.insert(next);
-}
-
-void Scheduler::end(std::size_t task_idx, Outcome outcome) {
-  tasks_[task_idx].outcome = outcome;
-  display_.ended(tasks_[task_idx]);
+/// Keeps the log of a failed attempt.
+std::string Scheduler::save_log(const Task& task, const std::filesystem::path& log) const {
+  std::error_code error;
+  std::filesystem::create_directories(options_.logs, error);
+  std::string name = task.label;
+  std::replace(name.begin(), name.end(), '/', '.');
+  if (task.retries > 0) name += '.' + std::to_string(task.retries);
+  const std::filesystem::path saved = options_.logs / (name + ".log");
+  std::filesystem::rename(log, saved, error);
+  return error ? "" : saved.string();
 }
 
 void Scheduler::fail(std::size_t task_idx, const std::string& what) {
-  tasks_[task_idx].why = what;
-  end(task_idx, Outcome::failed);
-  block_dependents(task_idx);
+  board_.fail(task_idx, Outcome::failed, what);
   if (!options_.keep_going) stopping_ = true;
-}
-
-void Scheduler::block_dependents(std::size_t task_idx) {
-  for (const std::size_t next : tasks_[task_idx].dependents) {
-    Task& task = tasks_[next];
-    if (task.outcome != Outcome::open) continue;
-    task.outcome = Outcome::blocked;
-    task.why = "behind " + tasks_[task_idx].label;
-    block_dependents(next);
-  }
 }
 
 void Scheduler::release_followers(const std::string& key) {
   const auto found = followers_.find(key);
   if (found == followers_.end()) return;
-  const std::vector<std::size_t> waiting = std::move(found->second);
+  for (const std::size_t task : found->second) board_.reconsider(task);
   followers_.erase(found);
-  undecided_.insert(waiting.begin(), waiting.end());
-}
-
-std::string Scheduler::reason(const Task& task, const Key& key) {
-  const std::string& stage = instances_[task.instance_idx].graph->stages[task.stage_idx].name;
-  return reason_for(key, stage, record(task.instance_idx), store_).text;
-}
-
-const std::map<std::string, StageRecord>& Scheduler::record(std::size_t instance_idx) {
-  const auto [record, fresh] = records_.try_emplace(instance_idx);
-  if (fresh) record->second = Workspace(instances_[instance_idx].out).read_record();
-  return record->second;
 }
 
 /// Before the first stage starts: what is left to do must fit on the disk if it gets as large as it last was.
 void Scheduler::check_space() {
   if (std::exchange(space_checked_, true) || !options_.check_space) return;
-  std::uint64_t expected = 0;
-  for (const Task& task : tasks_) {
-    const Instance& instance = instances_[task.instance_idx];
-    if (task.outcome != Outcome::open || !instance.selected[task.stage_idx]) continue;
-    const auto& last = record(task.instance_idx);
-    const auto stage = last.find(instance.graph->stages[task.stage_idx].name);
-    if (stage != last.end()) expected += stage->second.bytes;
-  }
-  check_room(store_.root(), expected);
+  check_room(store_.root(), board_.expected_bytes());
 }
 
 /// The first time the stages are asked to end and given a grace; the second time they are killed.
 void Scheduler::interrupt() {
   const bool again = interrupted_;
   interrupted_ = stopping_ = true;
-  for (const Running& one : running_) signal_group(one.attempt->pid(), again ? SIGKILL : SIGTERM);
+  crew_.signal(again ? SIGKILL : SIGTERM);
   if (!again) signals_.interrupt_again_after(kGrace_s);
 }
 

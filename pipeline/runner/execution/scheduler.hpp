@@ -1,25 +1,20 @@
 #pragma once
 
 #include <deque>
-#include <list>
-#include <map>
-#include <memory>
-#include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
-#include "pipeline/runner/execution/attempt.hpp"
-#include "pipeline/runner/execution/display.hpp"
-#include "pipeline/runner/execution/instance.hpp"
-#include "pipeline/runner/execution/plan.hpp"
+#include "pipeline/runner/execution/board.hpp"
+#include "pipeline/runner/execution/crew.hpp"
 #include "pipeline/runner/execution/signals.hpp"
-#include "pipeline/runner/execution/task.hpp"
 
 namespace sediment::runner {
 
 struct RunOptions {
   int jobs = 1;
-  int threads = 0;  ///< given to each stage, 0 = all cores
+  int threads = 0;   ///< given to each stage that declares no cpus, 0 = all cores
+  Amounts capacity;  ///< of the machine
   bool keep_going = false;
   bool check_space = true;     ///< refuse to begin if the last results would not fit on the disk
   std::filesystem::path logs;  ///< folder for the logs of failed stages
@@ -37,45 +32,34 @@ class Scheduler {
   bool interrupted() const { return interrupted_; }
 
  private:
-  struct Running {
-    std::size_t task;
-    std::string key;
-    std::unique_ptr<Attempt> attempt;
-  };
   struct Waiting {  ///< ready to run, or to try the lock of another runner again
     std::size_t task;
     Key key;
   };
+  enum class Launch { done, no_room, locked };
 
   void decide(std::size_t task);
-  bool launch(Waiting waiting);
   void launch_ready();
+  Launch launch(Waiting& waiting);
+  void start(Waiting& waiting, KeyLock lock);
   void wait();
-  void reap_ended();
-  void publish(Running& running, const Ending& ending);
-  void keep(std::size_t task, const Hit& hit);
-  void succeed(std::size_t task, Outcome outcome);
-  void end(std::size_t task, Outcome outcome);
+  void publish(Crew::Ended ended);
+  bool retries(const Crew::Ended& ended, const std::string& what);
+  std::string save_log(const Task& task, const std::filesystem::path& log) const;
   void fail(std::size_t task, const std::string& what);
-  void block_dependents(std::size_t task);
   void release_followers(const std::string& key);
   void interrupt();
-  std::string reason(const Task& task, const Key& key);
-  const std::map<std::string, StageRecord>& record(std::size_t instance_idx);
   void check_space();
 
-  const std::vector<Instance>& instances_;
   Store& store_;
   RunOptions options_;
   Signals& signals_;
   Display& display_;
-  std::vector<Task> tasks_;
-  std::vector<std::vector<std::string>> objects_;  ///< of each stage of each instance, as far as known
-  std::map<std::size_t, std::map<std::string, StageRecord>> records_;  ///< of the last run, read on demand
-  std::set<std::size_t> undecided_;                                    ///< all before them has ended
+  Board board_;
+  Crew crew_;
   std::deque<Waiting> ready_;
-  std::list<Running> running_;
-  std::map<std::string, std::vector<std::size_t>> followers_;  ///< by key in work: others that want the same
+  std::unordered_map<std::string, std::vector<std::size_t>>
+      followers_;  ///< by key in work: others that want it
   bool space_checked_ = false;
   bool locked_out_ = false;  ///< another runner holds a lock we want
   bool stopping_ = false;    ///< something failed: start nothing more

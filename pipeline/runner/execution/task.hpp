@@ -21,7 +21,8 @@ struct Task {
   std::string key, object;
   std::string why;  ///< why it ran, or what went wrong
   std::string log;  ///< file with what a failed stage said
-  double wall_s = 0;
+  double wall_s = 0, cpu_s = 0;
+  int retries = 0;  ///< attempts that failed before
   std::uint64_t bytes = 0, peak_bytes = 0;
   int waits_for = 0;  ///< stages before it that have not ended
   std::vector<std::size_t> dependents;

@@ -2,12 +2,14 @@
 // clouds, chart makes a grid map. Its result is a line of text behind the text of its input.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -26,8 +28,8 @@ struct Parameters {
   double factor = 0.5;
   Manner manner = Manner::plain;
   std::vector<std::string> words;
-  std::string
-      fault;  ///< fail, crash, hang, deaf (to SIGTERM), lie (a manifest that does not match), link, orphan
+  std::string fault;  ///< fail, crash, hang, deaf (to SIGTERM), twice, lie (a manifest that does not match),
+                      ///< link, orphan
   double sleep_s = 0;
   int padding_mb = 0;  ///< size of one more file, written piece by piece over sleep_s
   std::string diary;   ///< file that gets a line per start
@@ -56,13 +58,19 @@ void write_slowly(const fs::path& file, const std::string& name, int megabytes, 
   }
 }
 
-void misbehave(const std::string& fault, const fs::path& out) {
+void misbehave(const std::string& fault, const fs::path& out, const fs::path& diary) {
   if (fault == "fail") throw std::runtime_error("frame 7: asked to fail");
   if (fault == "crash") std::abort();
   if (fault == "hang") std::this_thread::sleep_for(std::chrono::hours(1));
   if (fault == "link") fs::create_symlink("/etc/hostname", out / "link");
   if (fault == "deaf") {
     std::system("trap '' TERM; sleep 3600");
+  }
+  // Fails until its third start; needs a diary.
+  if (fault == "twice") {
+    std::ifstream lines(diary);
+    const auto starts = std::count(std::istreambuf_iterator<char>(lines), {}, '\n');
+    if (starts < 3) throw std::runtime_error("not yet");
   }
   // A grandchild that outlives us and goes on writing into our result.
   if (fault == "orphan" && fork() == 0) {
@@ -102,7 +110,7 @@ int main(int argc, char** argv) {
       if (work.has(role)) out << content_of(work.in(role));
     out << name << ' ' << parameters.neighbors / 10 * 10 << ' ' << parameters.factor << '\n' << std::flush;
     write_slowly(work.out() / "padding.bin", name, parameters.padding_mb, parameters.sleep_s);
-    misbehave(parameters.fault, work.out());
+    misbehave(parameters.fault, work.out(), parameters.diary);
     work.metrics()["neighbors"] = parameters.neighbors / 10 * 10;
   });
   for (int i = 1; parameters.fault == "lie" && i + 1 < argc; ++i)
