@@ -69,18 +69,17 @@ class OpenCvNetwork final : public Network {
     return load();
   }
 
-  /// OpenCV's layer names for the outputs: with a prefix that depends on its version.
-  static std::vector<std::string> output_layers(const cv::dnn::Net& net) {
-    const std::vector<std::string> layers = net.getLayerNames();
-    std::vector<std::string> found;
-    for (const char* name : {onnx::output_name::kBins, onnx::output_name::kLogits,
-                             onnx::output_name::kCoefficients, onnx::output_name::kPrototypes}) {
-      const auto layer =
-          std::ranges::find_if(layers, [&](const std::string& each) { return each.ends_with(name); });
-      if (layer == layers.end()) throw std::runtime_error(std::string("OpenCV lost the output ") + name);
-      found.push_back(*layer);
-    }
-    return found;
+  /// OpenCV's name of a layer: with a prefix that depends on its version.
+  static std::string layer_of(const cv::dnn::Net& net, const std::string& node) {
+    for (const std::string& layer : net.getLayerNames())
+      if (layer.ends_with(node)) return layer;
+    throw std::runtime_error("OpenCV lost the output " + node);
+  }
+
+  std::vector<std::string> output_layers(const cv::dnn::Net& net) const {
+    namespace name = onnx::output_name;
+    return {layer_of(net, name::kBins), layer_of(net, shared_ ? name::kBins : name::kLogits),
+            layer_of(net, name::kCoefficients), layer_of(net, name::kPrototypes)};
   }
 
   Prediction decoded(const std::vector<cv::Mat>& outputs) const {

@@ -1,4 +1,5 @@
-#include <array>
+#include <algorithm>
+#include <optional>
 #include <set>
 
 #include "stages/segment/onnx/head.hpp"
@@ -24,13 +25,16 @@ std::string tensor_message(const std::string& name, const std::vector<int>& shap
       .message();
 }
 
-std::string identity_message(const std::string& from, const std::string& to) {
-  return WireWriter()
-      .bytes(field::kNodeInput, from)
-      .bytes(field::kNodeOutput, to)
-      .bytes(field::kNodeName, to)
-      .bytes(field::kNodeOpType, "Identity")
-      .message();
+/// The same node by another name.
+std::string renamed(const Node& node, const std::string& name) {
+  WireReader graph_field(node.raw);
+  Field whole;
+  graph_field.next(whole);
+  WireWriter writer;
+  WireReader reader(whole.bytes);
+  for (Field part; reader.next(part);)
+    if (part.number != field::kNodeName) writer.copy(part.raw);
+  return writer.bytes(field::kNodeName, name).message();
 }
 
 /// All tensors that the given ones are computed from, and these.
@@ -53,6 +57,14 @@ std::string_view initializer_name(std::string_view message) {
   return {};
 }
 
+/// Name of the first of `outputs` that a node makes; nothing if it makes none.
+std::optional<std::string> output_of(const Node& node,
+                                     const std::vector<std::pair<std::string, std::string>>& outputs) {
+  for (const auto& [tensor, name] : outputs)
+    if (std::ranges::find(node.outputs, tensor) != node.outputs.end()) return name;
+  return std::nullopt;
+}
+
 std::string cut_graph(const Model& model, std::string_view graph, const std::string& input, Size size,
                       const std::vector<std::pair<std::string, std::string>>& outputs) {
   std::vector<std::string_view> targets;
@@ -60,13 +72,14 @@ std::string cut_graph(const Model& model, std::string_view graph, const std::str
   const std::set<std::string_view> needed = needed_for(model, targets);
 
   WireWriter writer;
-  for (const Node& node : model.nodes)
-    for (const std::string_view output : node.outputs)
-      if (needed.contains(output)) {
-        writer.copy(node.raw);
-        break;
-      }
-  for (const auto& [tensor, name] : outputs) writer.bytes(field::kGraphNode, identity_message(tensor, name));
+  for (const Node& node : model.nodes) {
+    if (std::ranges::none_of(node.outputs, [&](std::string_view tensor) { return needed.contains(tensor); }))
+      continue;
+    if (const auto name = output_of(node, outputs))
+      writer.bytes(field::kGraphNode, renamed(node, *name));
+    else
+      writer.copy(node.raw);
+  }
   WireReader reader(graph);
   for (Field part; reader.next(part);) {
     const bool weights =
@@ -74,18 +87,17 @@ std::string cut_graph(const Model& model, std::string_view graph, const std::str
     if (weights || part.number == field::kGraphName) writer.copy(part.raw);
   }
   writer.bytes(field::kGraphInput, tensor_message(input, {1, 3, size.height, size.width}));
-  for (const auto& [tensor, name] : outputs) writer.bytes(field::kGraphOutput, tensor_message(name, {}));
+  for (const auto& [tensor, name] : outputs) writer.bytes(field::kGraphOutput, tensor_message(tensor, {}));
   return writer.message();
 }
 
 }  // namespace
 
 std::string cut_before_decoding(const Model& model, const Layout& layout, const Head& head, Size input_size) {
-  const std::vector<std::pair<std::string, std::string>> outputs = {
-      {head.bins, output_name::kBins},
-      {head.logits, output_name::kLogits},
-      {head.coefficients, output_name::kCoefficients},
-      {layout.prototypes, output_name::kPrototypes}};
+  std::vector<std::pair<std::string, std::string>> outputs = {{head.bins, output_name::kBins}};
+  if (head.logits != head.bins) outputs.emplace_back(head.logits, output_name::kLogits);
+  outputs.emplace_back(head.coefficients, output_name::kCoefficients);
+  outputs.emplace_back(layout.prototypes, output_name::kPrototypes);
   WireWriter writer;
   WireReader reader(model.bytes);
   for (Field part; reader.next(part);) {

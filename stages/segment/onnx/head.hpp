@@ -18,7 +18,8 @@ struct Head {
 /// Throws std::runtime_error that names the file if the graph does not end in such a head.
 Head find_head(const Model& model, const Layout& layout);
 
-/// Names of the outputs of a network made by cut_before_decoding().
+/// Names of the nodes at which a network made by cut_before_decoding() ends. Where bins and logits are one
+/// tensor it has the first name.
 namespace output_name {
 inline constexpr const char* kBins = "sediment_bins";
 inline constexpr const char* kLogits = "sediment_logits";
