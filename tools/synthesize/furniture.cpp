@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/synthesize/palette.hpp"
 #include "tools/synthesize/patterns.hpp"
 
 namespace sediment::synthetic {
@@ -50,10 +51,7 @@ void place_keyboard(Workshop& w, const Pose& on_desk) {
 }
 
 void place_cup(Workshop& w, Vec3 foot) {
-  const Rgb color{static_cast<float>(w.random.uniform(0.3, 1)),
-                  static_cast<float>(w.random.uniform(0.2, 0.8)),
-                  static_cast<float>(w.random.uniform(0.2, 0.8))};
-  const int glaze = w.tiled(cloth(w.random.next(), color, 1), 0.3);
+  const int glaze = w.tiled(cloth(w.random.next(), pigment(w.random), 1), 0.3);
   w.add("cup", "cup", true,
         {pillar(foot, 0.04, 0.10, glaze), box(foot + Vec3{0.05, 0, 0.05}, {0.02, 0.012, 0.06}, glaze)});
 }
@@ -70,10 +68,7 @@ void place_bottle(Workshop& w, Vec3 foot) {
 void place_book(Workshop& w, const Pose& at, double thick, double height, bool lying) {
   const double depth = w.random.uniform(0.15, 0.2);
   const int spine = w.sheet(book_spine(w.random.next(), thick, height), thick, height, 0.8);
-  const Rgb cover{static_cast<float>(w.random.uniform(0.15, 0.85)),
-                  static_cast<float>(w.random.uniform(0.15, 0.8)),
-                  static_cast<float>(w.random.uniform(0.15, 0.8))};
-  Solid book = box({0, 0, height / 2}, {thick, depth, height}, w.plain(cover), kFront, spine);
+  Solid book = box({0, 0, height / 2}, {thick, depth, height}, w.plain(pigment(w.random)), kFront, spine);
   if (lying) {
     const int front = w.sheet(poster(w.random.next(), depth, height), depth, height, 0.8);
     book = box({0, 0, thick / 2}, {depth, height, thick}, w.plain({.9f, .88f, .8f}), kTop, front);

@@ -25,19 +25,21 @@ Pattern plaster(std::uint64_t seed, Rgb color, double contrast) {
   return [=](double u, double v, double texel) {
     const double clouds = fractal_noise(seed, u, v, 0.6, 0.15);
     const double grains = fractal_noise(seed + 1, u, v, 0.08, std::max(2 * texel, 0.006), 0.75);
-    // Small marks: a few in each cell of a quarter of a metre.
+    // Marks, chips and scuffs: a few in each cell of 14 cm, round or drawn out, most of them dark.
     double marks = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double cu = u / 0.17 + k * 0.37, cv = v / 0.17 + k * 0.71;
-      const std::uint64_t h = cell(seed + 7 + k, cu, cv);
-      const double mu = 0.25 + 0.5 * unit(h), mv = 0.25 + 0.5 * unit(mix(h));
-      const double radius = 0.02 + 0.07 * unit(mix(h + 1));
-      const double du = cu - std::floor(cu) - mu,
-                   dv = (cv - std::floor(cv) - mv) * (0.4 + 1.2 * unit(mix(h + 2)));
-      const double edge = (radius - std::sqrt(du * du + dv * dv)) * 0.17 / (1.5 * texel);
-      marks += std::clamp(edge + 0.5, 0.0, 1.0) * (unit(mix(h + 3)) - 0.62);
+    for (int k = 0; k < 4; ++k) {
+      constexpr double kCell = 0.14;
+      const double cu = u / kCell + k * 0.37, cv = v / kCell + k * 0.71;
+      const std::uint64_t h = cell(seed + 7 + static_cast<std::uint64_t>(k), cu, cv);
+      const double turn = unit(mix(h + 4)), stretch = 0.35 + 1.3 * unit(mix(h + 2));
+      const double du = cu - std::floor(cu) - 0.25 - 0.5 * unit(h),
+                   dv = cv - std::floor(cv) - 0.25 - 0.5 * unit(mix(h));
+      const double along = (du + (turn - 0.5) * dv) / stretch, across = (dv - (turn - 0.5) * du) * stretch;
+      const double radius = 0.02 + 0.09 * std::pow(unit(mix(h + 1)), 2);
+      const double edge = (radius - std::sqrt(along * along + across * across)) * kCell / (1.5 * texel);
+      marks += std::clamp(edge + 0.5, 0.0, 1.0) * (unit(mix(h + 3)) - 0.66);
     }
-    return f(1 + contrast * (0.05 * clouds + 0.07 * grains + 0.28 * marks)) * color;
+    return f(1 + contrast * (0.05 * clouds + 0.08 * grains + 0.42 * marks)) * color;
   };
 }
 
@@ -89,6 +91,16 @@ Pattern cloth(std::uint64_t seed, Rgb color, int stripes) {
     if (stripes >= 1 && band(v)) tone *= 0.62;
     if (stripes >= 2 && band(u)) tone *= 0.70;
     return f(tone) * color;
+  };
+}
+
+Pattern speckled(std::uint64_t seed, Rgb color) {
+  return [=](double u, double v, double texel) {
+    const double specks = plane_noise(seed, u / 0.016, v / 0.013),
+                 blotches = plane_noise(seed + 1, u / 0.05, v / 0.05);
+    const double fine = fractal_noise(seed + 2, u, v, 0.03, std::max(2 * texel, 0.005), 0.85);
+    const double speck = specks > 0.42 ? -0.28 : specks < -0.5 ? 0.2 : 0;
+    return f(1 + 0.07 * fine + 0.06 * blotches + speck) * color;
   };
 }
 

@@ -23,12 +23,18 @@ Pattern pin_board(std::uint64_t seed, double width_m, double height_m);
 /// A computer screen with windows full of text and a picture.
 Pattern screen(std::uint64_t seed, double width_m, double height_m);
 Pattern keyboard(std::uint64_t seed, double width_m, double height_m);
+/// White enamel with writing and drawings in several colours.
+Pattern whiteboard(std::uint64_t seed, double width_m, double height_m);
+/// The dial of a clock, 0.28 m wide.
+Pattern clock_face();
 /// Back of a book: bands, title, publisher's mark.
 Pattern book_spine(std::uint64_t seed, double width_m, double height_m);
 /// Brown board with a tape, a label and print.
 Pattern cardboard(std::uint64_t seed, double width_m, double height_m);
 /// Woven cloth; `stripes` 0 plain, 1 horizontal stripes, 2 checks.
 Pattern cloth(std::uint64_t seed, Rgb color, int stripes);
+/// Cork, stone, terrazzo: a colour with dark and light specks of one to three centimetres.
+Pattern speckled(std::uint64_t seed, Rgb color);
 /// Fine irregular grain of plastic, metal and skin, nearly white: meant to be tinted.
 Pattern grain(std::uint64_t seed, double strength);
 

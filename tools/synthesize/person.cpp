@@ -44,7 +44,7 @@ Vec3 elbow_of(Vec3 shoulder, Vec3& hand, int side) {
   hand = shoulder + length * direction;
   const double along = (kUpperArm * kUpperArm - kForearm * kForearm + length * length) / (2 * length);
   const double off = std::sqrt(std::max(0.0, kUpperArm * kUpperArm - along * along));
-  const Vec3 hint{0.5 * side, 0.6, -0.6};
+  const Vec3 hint{0.3 * side, 0.45, -0.8};
   return shoulder + along * direction + off * normalized(hint - dot(hint, direction) * direction);
 }
 
@@ -66,30 +66,45 @@ void add_head(std::vector<Solid>& body, const Posture& p, const Outfit& outfit, 
   head.translation = neck + Vec3{0, -0.015, 0.12};
   const auto at = [&](double x, double y, double z) { return head * Vec3{x, y, z}; };
   const Vec3 side = head.rotate({1, 0, 0});
+  const auto ball = [&](Vec3 centre, double radius, int material) {
+    body.push_back(limb(centre, centre, radius, radius, material));
+  };
   body.push_back(limb(neck + Vec3{0, 0.01, -0.03}, at(0, 0.01, 0), 0.055, 0.055, outfit.skin));
-  body.push_back(limb(at(0, -0.02, -0.03), at(0, -0.005, 0.06), 0.072, 0.092, outfit.skin, 1.12, side));
-  body.push_back(limb(at(0, 0.03, 0.02), at(0, 0.012, 0.085), 0.088, 0.092, outfit.hair, 1.1, side));
-  body.push_back(limb(at(0, -0.098, -0.005), at(0, -0.09, 0.03), 0.016, 0.01, outfit.skin));
-  for (const double x : {-0.033, 0.033})
-    body.push_back(limb(at(x, -0.085, 0.042), at(x, -0.086, 0.042), 0.0125, 0.0125, outfit.hair));
+  body.push_back(limb(at(0, -0.025, -0.045), at(0, -0.005, 0.06), 0.062, 0.090, outfit.skin, 1.1,
+                      side));  // chin to forehead
+  body.push_back(limb(at(0, 0.045, 0.005), at(0, 0.018, 0.078), 0.078, 0.092, outfit.hair, 1.08, side));
+  body.push_back(limb(at(0, -0.03, 0.125), at(0, 0.02, 0.12), 0.055, 0.07, outfit.hair));    // forelock
+  body.push_back(limb(at(0, -0.103, 0.0), at(0, -0.093, 0.035), 0.016, 0.01, outfit.skin));  // nose
+  body.push_back(limb(at(-0.017, -0.083, -0.043), at(0.017, -0.083, -0.043), 0.009, 0.009, outfit.lips));
+  for (const double x : {-0.034, 0.034}) {
+    ball(at(x, -0.079, 0.042), 0.017, outfit.eyes);
+    ball(at(x, -0.0905, 0.042), 0.0085, outfit.shoes);  // dark pupils
+    body.push_back(
+        limb(at(x - 0.016, -0.086, 0.066), at(x + 0.016, -0.086, 0.066), 0.006, 0.006, outfit.hair));
+    body.push_back(limb(at(2.7 * x, 0.0, 0.0), at(2.75 * x, 0.004, 0.035), 0.013, 0.017, outfit.skin));
+  }
 }
 
 }  // namespace
 
 Outfit dress(Workshop& w) {
   constexpr Rgb kShirts[] = {
-      {.62f, .18f, .16f}, {.20f, .36f, .62f}, {.80f, .78f, .70f}, {.22f, .46f, .30f}, {.75f, .55f, .20f}};
-  constexpr Rgb kSkins[] = {{.86f, .66f, .54f}, {.70f, .49f, .36f}, {.45f, .30f, .22f}};
-  constexpr Rgb kHair[] = {{.16f, .11f, .08f}, {.45f, .31f, .16f}, {.12f, .12f, .13f}};
-  constexpr Rgb kTrousers[] = {{.20f, .24f, .38f}, {.24f, .22f, .20f}, {.46f, .42f, .34f}};
-  const auto pick = [&](const auto& colors) {
-    return colors[w.random.integer(0, static_cast<int>(std::size(colors)) - 1)];
-  };
+      {.66f, .20f, .18f}, {.22f, .38f, .64f}, {.80f, .76f, .66f}, {.24f, .48f, .32f}, {.80f, .58f, .22f}};
+  constexpr Rgb kSkins[] = {{.88f, .68f, .56f}, {.74f, .53f, .40f}, {.50f, .34f, .25f}};
+  constexpr Rgb kHair[] = {{.20f, .14f, .10f}, {.48f, .34f, .18f}, {.13f, .13f, .14f}};
+  constexpr Rgb kTrousers[] = {{.22f, .27f, .42f}, {.27f, .25f, .23f}, {.50f, .45f, .36f}};
+  // No two people in a row look alike.
+  const auto before = std::count_if(w.scene.bodies.begin(), w.scene.bodies.end(),
+                                    [](const Body& body) { return body.mobility == Mobility::person; });
+  const auto nth = static_cast<std::size_t>(before) + w.look;
+  const Rgb skin = kSkins[nth % 3];
   Outfit outfit{};
-  outfit.skin = w.plain(pick(kSkins));
-  outfit.hair = w.tiled(grain(w.random.next(), 0.25), 0.4, 1, pick(kHair));
-  outfit.shirt = w.tiled(cloth(w.random.next(), pick(kShirts), w.random.integer(0, 2)), 1.0);
-  outfit.trousers = w.tiled(cloth(w.random.next(), pick(kTrousers), 0), 1.0);
+  outfit.skin = w.plain(skin);
+  outfit.lips = w.plain(skin * Rgb{.82f, .60f, .58f});
+  outfit.eyes = w.plain({.95f, .95f, .93f});
+  outfit.hair = w.tiled(grain(w.random.next(), 0.25), 0.4, 1, kHair[(nth + nth / 3) % 3]);
+  outfit.shirt = w.tiled(cloth(w.random.next(), kShirts[nth % 5], static_cast<int>((nth + 1) % 3)), 1.0);
+  outfit.trousers = w.tiled(cloth(w.random.next(), kTrousers[nth % 3], 0), 1.0);
   outfit.shoes = w.plain({.15f, .13f, .12f});
   return outfit;
 }

@@ -9,7 +9,7 @@ namespace sediment::synthetic {
 
 /// What a person wears: indices of materials.
 struct Outfit {
-  int skin, hair, shirt, trousers, shoes;
+  int skin, hair, shirt, trousers, shoes, lips, eyes;
 };
 Outfit dress(Workshop& workshop);
 

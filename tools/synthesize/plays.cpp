@@ -106,22 +106,22 @@ CameraMotion play_carried_box(Stage stage) {
                                    {1.6, -0.33, 1.12, kToDesks, Arms::carry},
                                    {3.0, 0.1, 0.35, kToRight, Arms::carry},
                                    {4.4, 1.35, 0.5, kToRight, Arms::carry},
-                                   {5.4, 1.48, 1.12, kToDesks, Arms::carry},
-                                   {6.2, 1.48, 1.16, kToDesks, Arms::pick},
-                                   {6.8, 1.48, 1.16, kToDesks, Arms::pick},
-                                   {7.6, 1.48, 0.95, kToDesks},
+                                   {5.4, 1.37, 1.12, kToDesks, Arms::carry},
+                                   {6.2, 1.37, 1.16, kToDesks, Arms::pick},
+                                   {6.8, 1.37, 1.16, kToDesks, Arms::pick},
+                                   {7.6, 1.37, 0.95, kToDesks},
                                    {10, -0.2, 0.3, kToLeft},
-                                   {12, 1.48, 0.95, kToDesks},
-                                   {12.8, 1.48, 1.16, kToDesks, Arms::pick},
-                                   {13.4, 1.48, 1.16, kToDesks, Arms::pick},
-                                   {14.2, 1.48, 1.12, kToDesks, Arms::carry},
+                                   {12, 1.37, 0.95, kToDesks},
+                                   {12.8, 1.37, 1.16, kToDesks, Arms::pick},
+                                   {13.4, 1.37, 1.16, kToDesks, Arms::pick},
+                                   {14.2, 1.37, 1.12, kToDesks, Arms::carry},
                                    {15.8, 0.1, 0.35, kToLeft, Arms::carry},
                                    {17.2, -0.33, 1.12, kToDesks, Arms::carry},
                                    {18, -0.33, 1.16, kToDesks, Arms::pick}});
   const int carried = w.add("carried box", "box", true, carton(w, {0.37, 0.28, 2 * kHalfHeight}));
   carry_along(w.scene.bodies[static_cast<std::size_t>(carried)], carrier, placed({0, 0, -kHalfHeight}),
               {{0.8, 6.2}, {13.4, 18}});
-  return before_desks(stage);
+  return handheld(stage.motion_seed, {0.4, -1.4, 1.45}, 0.03, -0.22);
 }
 
 // A bare room, a camera that rolls over to 80 degrees and back, and people who stand close before it while it

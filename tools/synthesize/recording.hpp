@@ -46,6 +46,7 @@ class Recording {
   double time_s(std::size_t frame_idx) const;
   std::string stamp(std::size_t frame_idx) const;  ///< as in rgb.txt
   Pose world_from_camera(std::size_t frame_idx) const { return play_.motion(time_s(frame_idx)); }
+  Pose world_from_camera_at(double time_s) const { return play_.motion(time_s); }
   Vec3 accelerometer(double time_s) const { return specific_force(play_.motion, time_s); }
   RecordedFrame frame(std::size_t frame_idx) const;
 

@@ -1,7 +1,6 @@
 #include "tools/synthesize/room.hpp"
 
-#include <numbers>
-
+#include "tools/synthesize/fittings.hpp"
 #include "tools/synthesize/furniture.hpp"
 #include "tools/synthesize/patterns.hpp"
 
@@ -45,41 +44,10 @@ void hang_lamps(Workshop& w) {
     for (const double y : {-1.0, 1.1}) {
       panels.push_back(
           box({x, y, kHeight - 0.02}, {1.2, 0.3, 0.04}, w.plain({.8f, .8f, .8f}), kBottom, tube));
-      w.scene.lamps.push_back({{x, y, kHeight - 0.045}, 1.2, 0.3, {2.5f, 2.42f, 2.3f}});
+      w.scene.lamps.push_back({{x, y, kHeight - 0.045}, 1.2, 0.3, {3.0f, 2.9f, 2.76f}});
     }
   w.add("lamps", "other furniture", false, std::move(panels));
-  w.scene.thrown_back = {3.8f, 3.8f, 3.8f};
-}
-
-// Sheets on a wall: `along` runs over the wall, from the left for one who looks at it.
-void hang(Workshop& w, const std::string& name, const Pattern& pattern, double width, double height,
-          Vec3 centre, double yaw) {
-  const int print = w.sheet(pattern, width, height);
-  w.add(name, "poster", false,
-        {box(centre, {width, 0.012, height}, w.plain({.3f, .28f, .26f}), kFront, print, yaw)});
-}
-
-void hang_posters(Workshop& w) {
-  constexpr double kPi = std::numbers::pi;
-  const auto poster_at = [&](double width, double height, Vec3 centre, double yaw) {
-    hang(w, "poster", poster(w.random.next(), width, height), width, height, centre, yaw);
-  };
-  const double back = kHalfY - 0.006, front = -back, side = kHalfX - 0.006;
-  poster_at(0.6, 0.85, {-2.35, back, 1.75}, 0);
-  hang(w, "pin board", pin_board(w.random.next(), 1.3, 0.85), 1.3, 0.85, {-1.15, back, 1.75}, 0);
-  poster_at(0.55, 0.8, {0.05, back, 1.8}, 0);
-  poster_at(0.8, 0.6, {0.95, back, 1.85}, 0);
-  poster_at(0.6, 0.85, {1.85, back, 1.75}, 0);
-  // A sheet's front is -y; a turn by -90 degrees makes it -x, for the wall at +x.
-  poster_at(0.7, 1.0, {side, 0.9, 1.6}, -kPi / 2);
-  poster_at(0.6, 0.85, {side, -0.2, 1.65}, -kPi / 2);
-  hang(w, "pin board", pin_board(w.random.next(), 1.1, 0.8), 1.1, 0.8, {side, -1.5, 1.6}, -kPi / 2);
-  poster_at(0.6, 0.85, {-side, -1.7, 1.65}, kPi / 2);
-  poster_at(0.9, 0.65, {-side, -0.7, 1.7}, kPi / 2);
-  poster_at(0.7, 1.0, {-2.1, front, 1.6}, kPi);
-  poster_at(0.6, 0.85, {-1.1, front, 1.65}, kPi);
-  hang(w, "pin board", pin_board(w.random.next(), 1.2, 0.8), 1.2, 0.8, {0.2, front, 1.6}, kPi);
-  poster_at(0.8, 1.1, {2.4, front, 1.55}, kPi);
+  w.scene.thrown_back = {4.4f, 4.4f, 4.4f};
 }
 
 }  // namespace
@@ -87,7 +55,7 @@ void hang_posters(Workshop& w) {
 void furnish(Workshop& workshop, const RoomStyle& style) {
   build_shell(workshop, style);
   hang_lamps(workshop);
-  if (!style.bare) hang_posters(workshop);
+  if (!style.bare) hang_fittings(workshop);
   place_furniture(workshop, style);
 }
 

@@ -12,7 +12,7 @@ namespace sediment::synthetic {
 class Workshop {
  public:
   /// `texel_m` is the finest texel worth having: about a pixel seen from a metre.
-  Workshop(std::uint64_t seed, double texel_m) : random(seed), texel_m_(texel_m) {}
+  Workshop(std::uint64_t seed, double texel_m) : random(seed), look(mix(seed) % 15), texel_m_(texel_m) {}
 
   /// A material that repeats every `period_m`.
   int tiled(const Pattern& pattern, double period_m, double coarseness = 1, Rgb tint = {1, 1, 1});
@@ -32,6 +32,7 @@ class Workshop {
 
   Random random;
   Scene scene;
+  std::size_t look;  ///< from the seed: which clothes come first
 
  private:
   double texel_m_;

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "tools/synthesize/workshop.hpp"
+
+namespace sediment::synthetic {
+
+/// What hangs on the walls: posters, pin boards, a whiteboard, a clock, and a door, radiator, sockets.
+void hang_fittings(Workshop& workshop);
+
+}  // namespace sediment::synthetic
