@@ -30,6 +30,8 @@ class OpenCvNetwork final : public Network {
     cv::setNumThreads(1);
     const onnx::Head head = onnx::find_head(model, layout);
     shared_ = head.bins == head.logits;
+    has_products_ =
+        std::ranges::any_of(model.nodes, [](const onnx::Node& node) { return node.op_type == "MatMul"; });
     cut_ = onnx::cut_before_decoding(model, layout, head, {input_size.height, input_size.width});
     idle_.push_back(load());  // here, so that a network that OpenCV cannot read fails before the first frame
   }
@@ -54,6 +56,9 @@ class OpenCvNetwork final : public Network {
     cv::dnn::Net net = cv::dnn::readNetFromONNX(cut_.data(), cut_.size());
     net.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
     net.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);
+    // OpenCV 4.6 merges what follows a matrix product into it and then forgets it: YOLO11's attention loses
+    // its scale.
+    net.enableFusion(!has_products_);
     return net;
   }
 
@@ -99,8 +104,9 @@ class OpenCvNetwork final : public Network {
   std::string file_;
   int classes_;
   cv::Size input_size_;
-  std::string cut_;      ///< the network in memory
-  bool shared_ = false;  ///< bins and logits are one tensor
+  std::string cut_;            ///< the network in memory
+  bool shared_ = false;        ///< bins and logits are one tensor
+  bool has_products_ = false;  ///< of two matrices that are both computed
   mutable std::mutex mutex_;
   mutable std::vector<cv::dnn::Net> idle_;
 };

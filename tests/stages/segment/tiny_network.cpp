@@ -39,38 +39,75 @@ void reshape(OnnxBuilder& build, const std::string& from, const std::string& to,
   build.node("Reshape", {from, to + "_shape"}, {to});
 }
 
+/// As an export with dynamic axes writes view(x.shape[0], rows, -1).
+void reshape_by_batch(OnnxBuilder& build, const std::string& from, const std::string& to, std::int64_t rows) {
+  build.node("Shape", {from}, {to + "_from"});
+  build.integers(to + "_zero", {0});
+  build.node("Gather", {to + "_from", to + "_zero"}, {to + "_batch"}, {{"axis", {0}, false}});
+  build.integers(to + "_rest", {rows, -1});
+  build.node("Concat", {to + "_batch", to + "_rest"}, {to + "_shape"}, {{"axis", {0}, false}});
+  build.node("Reshape", {from, to + "_shape"}, {to});
+}
+
 void concat(OnnxBuilder& build, const Names& from, const std::string& to, std::int64_t axis) {
   build.node("Concat", from, {to}, {{"axis", {axis}, false}});
 }
 
+/// Self-attention over the cells of a level as YOLO11 has it, one head of three channels, added to the cells.
+void add_attention(OnnxBuilder& build, const std::string& cells, cv::Size size) {
+  colors_to(build, cells, "qkv_map",
+            {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 0, 2, 2, 0, 0, 2, -1, -1, -1, 2, -1, -1, -1, 2},
+            std::vector<float>(9, 0.1f));
+  reshape(build, "qkv_map", "qkv", {1, 1, 9, size.area()});
+  build.integers("qkv_parts", {3, 3, 3});
+  build.node("Split", {"qkv", "qkv_parts"}, {"q", "k", "v"}, {{"axis", {2}, false}});
+  build.node("Transpose", {"q"}, {"q_transposed"}, {{"perm", {0, 1, 3, 2}}});
+  build.node("MatMul", {"q_transposed", "k"}, {"affinity"});
+  build.floats("attention_scale", {1}, {0.5f});
+  build.node("Mul", {"affinity", "attention_scale"}, {"scaled_affinity"});
+  build.node("Softmax", {"scaled_affinity"}, {"attention"}, {{"axis", {-1}, false}});
+  build.node("Transpose", {"attention"}, {"attention_transposed"}, {{"perm", {0, 1, 3, 2}}});
+  build.node("MatMul", {"v", "attention_transposed"}, {"attended_row"});
+  reshape(build, "attended_row", "attended", {1, 3, size.height, size.width});
+  build.node("Add", {cells, "attended"}, {cells + "_attended"});
+}
+
 /// Bins, logits and coefficients of the anchors of one stride.
-void add_level(OnnxBuilder& build, int stride) {
+void add_level(OnnxBuilder& build, int stride, const TinyNetwork& network) {
   const std::string level = std::to_string(stride);
   average(build, stride, "cells" + level);
-  colors_to(build, "cells" + level, "bin_map" + level, std::vector<float>(4 * kBins * 3, 0), bin_logits());
+  std::string cells = "cells" + level;
+  if (network.attention && stride == 32) {
+    add_attention(build, cells, network.input / 32);
+    cells += "_attended";
+  }
+  colors_to(build, cells, "bin_map" + level, std::vector<float>(4 * kBins * 3, 0), bin_logits());
   const float bias = stride == 32 ? -10 : kNever;
-  colors_to(build, "cells" + level, "logit_map" + level, {20, -20, -20, -20, 20, -20}, {bias, bias});
-  colors_to(build, "cells" + level, "coefficient_map" + level, std::vector<float>(kCoefficients * 3, 0),
-            {0, 2, 0});
+  colors_to(build, cells, "logit_map" + level, {20, -20, -20, -20, 20, -20}, {bias, bias});
+  colors_to(build, cells, "coefficient_map" + level, std::vector<float>(kCoefficients * 3, 0), {0, 2, 0});
   reshape(build, "coefficient_map" + level, "coefficients" + level, {1, kCoefficients, -1});
 }
 
 /// Concatenates the levels to `bins` and `logits`, in one of the two ways exports have.
-void join_levels(OnnxBuilder& build, bool split) {
+void join_levels(OnnxBuilder& build, const TinyNetwork& network) {
+  const auto flatten = [&](const std::string& from, const std::string& to, std::int64_t rows) {
+    if (network.dynamic) return reshape_by_batch(build, from, to, rows);
+    reshape(build, from, to, {1, rows, -1});
+  };
   Names bins, logits, both;
   for (const std::string level : {"8", "16", "32"}) {
-    if (split) {
+    if (network.split) {
       concat(build, {"bin_map" + level, "logit_map" + level}, "both_map" + level, 1);
-      reshape(build, "both_map" + level, "both" + level, {1, 4 * kBins + kClasses, -1});
+      flatten("both_map" + level, "both" + level, 4 * kBins + kClasses);
     } else {
-      reshape(build, "bin_map" + level, "bins" + level, {1, 4 * kBins, -1});
-      reshape(build, "logit_map" + level, "logits" + level, {1, kClasses, -1});
+      flatten("bin_map" + level, "bins" + level, 4 * kBins);
+      flatten("logit_map" + level, "logits" + level, kClasses);
     }
     bins.push_back("bins" + level);
     logits.push_back("logits" + level);
     both.push_back("both" + level);
   }
-  if (split) {
+  if (network.split) {
     concat(build, both, "both", 2);
     build.integers("parts", {4 * kBins, kClasses});
     build.node("Split", {"both", "parts"}, {"bins", "logits"}, {{"axis", {1}, false}});
@@ -140,8 +177,8 @@ std::string onnx_file(const TinyNetwork& network) {
   const auto size = [&](int pixels) { return network.dynamic ? std::int64_t{-1} : std::int64_t{pixels}; };
   build.input("images", network.element_type,
               {network.batch, 3, size(network.input.height), size(network.input.width)});
-  for (const int stride : {8, 16, 32}) add_level(build, stride);
-  join_levels(build, network.split);
+  for (const int stride : {8, 16, 32}) add_level(build, stride, network);
+  join_levels(build, network);
   concat(build, {"coefficients8", "coefficients16", "coefficients32"}, "coefficients", 2);
   add_anchor_constants(build, network.input);
   decode_boxes(build);

@@ -15,11 +15,13 @@ namespace sediment::segment::test {
 struct TinyNetwork {
   cv::Size input{96, 64};                                     ///< multiples of 32
   std::string names = "{0: 'red thing', 1: \"it's green\"}";  ///< metadata; empty: none
-  bool dynamic = false;  ///< declares height, width and anchors as dynamic; runs at `input` all the same
-  bool split = false;    ///< bins and logits in one tensor that is split, as in older exports
-  bool swapped = false;  ///< prototypes first
-  bool segments = true;  ///< false: a detection network
-  int element_type = 1;  ///< of the input: 10 = float16
+  bool dynamic = false;    ///< declares height, width and anchors as dynamic, and
+                           ///< computes shapes; runs at `input` all the same
+  bool attention = false;  ///< YOLO11's block before the logits: changes scores
+  bool split = false;      ///< bins and logits in one tensor that is split, as in older exports
+  bool swapped = false;    ///< prototypes first
+  bool segments = true;    ///< false: a detection network
+  int element_type = 1;    ///< of the input: 10 = float16
   int batch = 1;
 };
 
