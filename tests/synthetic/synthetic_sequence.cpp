@@ -1,6 +1,7 @@
 #include "tests/synthetic/synthetic_sequence.hpp"
 
 #include "pipeline/artifacts/label_file.hpp"
+#include "tools/synthesize/degraded_masks.hpp"
 #include "tools/synthesize/seen_surface.hpp"
 #include "tools/synthesize/sequence_writer.hpp"
 
@@ -19,13 +20,18 @@ synthetic::Recording recording_of(const SyntheticSettings& settings) {
 
 SyntheticSequence synthetic_sequence(const SyntheticSettings& settings) {
   const synthetic::Recording recording = recording_of(settings);
-  synthetic::SeenSurface surface(recording.scene(), 0.01);
+  synthetic::SeenSurface surface(recording.scene(), synthetic::kCloudSpacing);
+  const std::vector<bool> missed = synthetic::missed_frames(recording.size(), {}, settings.seed);
   SyntheticSequence sequence;
   sequence.camera = recording.camera();
   for (std::size_t i = 0; i < recording.size(); ++i) {
     synthetic::RecordedFrame f = recording.frame(i);
     surface.add(f.exact, f.moment, f.frame.depth);
     sequence.groundtruth.push_back({f.frame.stamp, f.frame.stamp_s, f.world_from_camera});
+    if (settings.degraded)
+      sequence.degraded.push_back(
+          missed[i] ? InstanceMask{cv::Mat(f.instances.ids.size(), CV_16UC1, cv::Scalar(0)), {}}
+                    : synthetic::degraded(f.instances, {}, settings.seed, i));
     sequence.instances.push_back(std::move(f.instances));
     sequence.dynamic.push_back(f.dynamic);
     sequence.exact_depth_m.push_back(f.exact.depth_m);
@@ -37,7 +43,7 @@ SyntheticSequence synthetic_sequence(const SyntheticSettings& settings) {
 
 std::filesystem::path write_synthetic_sequence(const std::filesystem::path& folder,
                                                const SyntheticSettings& settings) {
-  synthetic::write_recording(recording_of(settings), folder);
+  synthetic::write_recording(recording_of(settings), folder, {.degraded_masks = settings.degraded});
   return folder / "sequence.yaml";
 }
 

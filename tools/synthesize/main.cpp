@@ -19,11 +19,17 @@ std::string scene_list() {
   return text;
 }
 
+/// The path without a slash at its end.
+std::string folder_name(const std::filesystem::path& path) {
+  return path.has_filename() ? path.string() : path.parent_path().string();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   synthetic::Settings settings;
   std::filesystem::path out;
+  synthetic::Extras extras;
   bool no_noise = false;
   int threads = 0;
   CLI::App app(
@@ -39,6 +45,9 @@ int main(int argc, char** argv) {
   app.add_option("--height", settings.height, "pixels")->capture_default_str();
   app.add_option("--rate", settings.rate_hz, "frames a second")->capture_default_str();
   app.add_flag("--no-noise", no_noise, "ideal depth and colour");
+  app.add_flag("--clean-depth", extras.clean_depth, "also write truth/depth: exact depth");
+  app.add_flag("--degrade-masks", extras.degraded_masks,
+               "also write truth/degraded_instances: masks as of a poor network (30 % of the frames missed)");
   app.add_option("--threads", threads, "0 = all cores; does not change the result")->capture_default_str();
   try {
     app.parse(argc, argv);
@@ -55,7 +64,12 @@ int main(int argc, char** argv) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, cores);
     const synthetic::Recording recording(settings);
     contract::Progress progress("synthesize", recording.size(), "frames");
-    synthetic::write_recording(recording, out, [&] { progress.advance(); });
+    // Whole or absent.
+    const std::filesystem::path partial = folder_name(out) + ".partial";
+    std::filesystem::remove_all(partial);
+    synthetic::write_recording(recording, partial, extras, [&] { progress.advance(); });
+    std::filesystem::remove(out);  // empty, if it is there
+    std::filesystem::rename(partial, out);
   } catch (const std::invalid_argument& error) {
     std::cerr << "synthesize: " << error.what() << "\n";
     return contract::kWrongCall;

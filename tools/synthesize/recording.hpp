@@ -39,6 +39,7 @@ class Recording {
   explicit Recording(const Settings& settings);
 
   const Camera& camera() const { return camera_; }
+  std::uint64_t seed() const { return settings_.seed; }
   const Scene& scene() const { return play_.scene; }
   const Lighting& lighting() const { return lighting_; }
   std::size_t size() const { return static_cast<std::size_t>(settings_.frames); }

@@ -7,6 +7,9 @@
 
 namespace sediment::synthetic {
 
+/// Distance of points of the static cloud, metres.
+inline constexpr double kCloudSpacing = 0.01;
+
 /// Remembers which parts of all that never moves were seen, in cells of the surfaces. What was seen does not
 /// depend on the order of the frames.
 class SeenSurface {

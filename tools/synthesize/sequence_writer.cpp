@@ -4,16 +4,10 @@
 #include <tbb/parallel_for.h>
 
 #include <fstream>
-#include <mutex>
 #include <stdexcept>
 
-#include "pipeline/artifacts/cloud.hpp"
-#include "pipeline/artifacts/dynamic_masks.hpp"
 #include "pipeline/artifacts/image_file.hpp"
-#include "pipeline/artifacts/label_file.hpp"
-#include "pipeline/artifacts/masks.hpp"
 #include "pipeline/artifacts/trajectory_file.hpp"
-#include "tools/synthesize/seen_surface.hpp"
 
 namespace sediment::synthetic {
 namespace {
@@ -71,33 +65,21 @@ void write_motion(const Recording& recording, const std::filesystem::path& folde
 
 }  // namespace
 
-void write_recording(const Recording& recording, const std::filesystem::path& folder,
+void write_recording(const Recording& recording, const std::filesystem::path& folder, const Extras& extras,
                      const std::function<void()>& written) {
-  for (const char* name : {"rgb", "depth", "truth/instances", "truth/dynamic", "truth/static_cloud"})
-    std::filesystem::create_directories(folder / name);
+  for (const char* name : {"rgb", "depth", "truth"}) std::filesystem::create_directories(folder / name);
   write_lists(recording, folder);
   write_camera(recording, folder);
   write_motion(recording, folder);
-  MasksWriter instances(folder / "truth" / "instances");
-  DynamicMasksWriter dynamic(folder / "truth" / "dynamic");
-  SeenSurface surface(recording.scene(), 0.01);
-  std::mutex surface_mutex;
+  TruthWriter truth(recording, folder / "truth", extras);
   tbb::parallel_for(std::size_t{0}, recording.size(), [&](std::size_t i) {
     const RecordedFrame f = recording.frame(i);
     write_png(folder / "rgb" / (f.frame.stamp + ".png"), f.frame.color);
     write_png(folder / "depth" / (f.frame.stamp + ".png"), f.frame.depth);
-    instances.write(f.frame.stamp, f.instances);
-    dynamic.write(f.frame.stamp, f.dynamic, {});
-    {
-      const std::lock_guard lock(surface_mutex);
-      surface.add(f.exact, f.moment, f.frame.depth);
-    }
+    truth.add(f);
     if (written) written();
   });
-  instances.finish();
-  dynamic.finish();
-  write_cloud(folder / "truth" / "static_cloud", surface.cloud(recording.lighting(), default_labels()),
-              default_labels(), PcdEncoding::binary);
+  truth.finish();
 }
 
 }  // namespace sediment::synthetic

@@ -25,4 +25,9 @@ check "there is a picture for each line" same "$(find "$tmp/one/rgb" "$tmp/one/d
 check "there is nothing but the sequence" same "$(ls "$tmp/one" | xargs)" \
   "accelerometer.txt camera.txt depth depth.txt groundtruth.txt rgb rgb.txt sequence.yaml truth"
 check "masks are written for each frame" same "$(find "$tmp/one/truth" -path '*masks*' -name '*.png' | wc -l)" 8
+
+check "extras are written on demand" "$bin/synthesize" static --out "$tmp/extras/" --frames 2 --width 64 --height 48 --clean-depth --degrade-masks
+check "there is exact depth" same "$(find "$tmp/extras/truth/depth" -name '*.png' | wc -l)" 2
+check "there are degraded masks" test -s "$tmp/extras/truth/degraded_instances/instances.json"
+check "nothing partial is left" same "$(find "$tmp" -name '*.partial')" ""
 finish
