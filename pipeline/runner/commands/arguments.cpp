@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "pipeline/contract/errors.hpp"
+#include "pipeline/runner/commands/command_table.hpp"
 #include "pipeline/runner/config/violations.hpp"
 
 namespace sediment::runner {
@@ -13,32 +14,29 @@ namespace {
 namespace fs = std::filesystem;
 using contract::UsageError;
 
-struct Command {
-  const char* name;
-  const char* help;
-};
-
-constexpr Command kCommands[] = {
-    {"run", "Bring the results of a pipeline up to date"},
-    {"plan", "Show what a run would do and why, with the exact calls; runs nothing"},
-    {"why", "Show in what a stage differs from its last result, part by part"},
-    {"graph", "Print the pipeline as text, Mermaid or DOT"},
-    {"status", "Show which results are there; runs nothing"},
-    {"verify", "Check the results in a store by digest; what is damaged is put aside"},
-};
-
 void add_selection(CLI::App& app, Arguments& arguments) {
-  app.add_option("--set", arguments.set,
-                 "A value of this run: stage.parameter=value or source=path; repeatable")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
-  auto* only = app.add_option("--only", arguments.only, "Run this stage alone")->type_name("STAGE");
-  app.add_option("--from", arguments.from, "Run this stage and those behind it")
+  auto* only = app.add_option("--only", arguments.only, "This stage alone")->type_name("STAGE");
+  app.add_option("--from", arguments.from, "This stage and those behind it")
       ->type_name("STAGE")
       ->excludes(only);
-  app.add_option("--until", arguments.until, "Run this stage and those it needs")
+  app.add_option("--until", arguments.until, "This stage and those it needs")
       ->type_name("STAGE")
       ->excludes(only);
+}
+
+void add_config(CLI::App& app, Arguments& arguments, unsigned takes) {
+  if (takes & kFolder) app.add_option("folder", arguments.config, "Folder")->required();
+  if (takes & (kConfig | kOptionalConfig))
+    app.add_option("config", arguments.config, "Pipeline: a YAML file, or a folder with a pipeline.yaml")
+        ->required(takes & kConfig);
+  if (takes & (kStage | kOptionalStage))
+    app.add_option("stage", arguments.stage, takes & kStage ? "Stage" : "Stage [all]")
+        ->required(takes & kStage);
+  if (takes & kConfig)
+    app.add_option("--set", arguments.set,
+                   "A value of this call: stage.parameter=value or source=path; repeatable")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
 }
 
 void add_places(CLI::App& app, Arguments& arguments) {
@@ -47,6 +45,9 @@ void add_places(CLI::App& app, Arguments& arguments) {
   app.add_option("--store", arguments.store,
                  "Folder that holds the results [$SEDIMENT_STORE, else OUT/.sediment]")
       ->type_name("DIR");
+}
+
+void add_programs(CLI::App& app, Arguments& arguments) {
   app.add_option("--stages", arguments.stages, "Folder of the stages' programs [that of sediment]")
       ->type_name("DIR");
   app.add_flag("--rehash", arguments.rehash, "Read every source anew instead of trusting its size and times");
@@ -67,32 +68,46 @@ void add_run_flags(CLI::App& app, Arguments& arguments) {
                "Begin even if results as large as the last ones would not fit on the disk");
 }
 
-void add_command(CLI::App& root, const Command& command, Arguments& arguments) {
-  CLI::App& app = *root.add_subcommand(command.name, command.help);
-  const std::string name = command.name;
-  const bool works_on_store = name == "verify";
-  app.add_option("config", arguments.config, "Pipeline: a YAML file, or a folder with a pipeline.yaml")
-      ->required(!works_on_store);
-  if (name == "why") app.add_option("stage", arguments.stage, "Stage to explain [all]");
-  add_places(app, arguments);
-  if (!works_on_store) add_selection(app, arguments);
-  if (name == "run" || name == "plan")
-    app.add_option("--threads", arguments.threads,
-                   "Threads of each stage, 0 = all cores; never changes a result [0]")
-        ->check(CLI::Range(0, 1024));
-  if (name == "run") add_run_flags(app, arguments);
+/// Flags that one command alone has.
+void add_own_flags(CLI::App& app, const std::string& name, Arguments& arguments) {
   if (name == "graph")
     app.add_option("--format", arguments.format, "text, mermaid or dot [text]")
         ->check(CLI::IsMember({"text", "mermaid", "dot"}));
   if (name == "verify")
     app.add_option("--share", arguments.share, "Share of the results to read, 0 .. 1; picked at random [1]")
         ->check(CLI::Range(0.0, 1.0));
-  app.callback([&arguments, name] { arguments.command = name; });
+  if (name == "pin" || name == "seal") app.add_flag("--remove", arguments.remove, "Undo it");
+  if (name != "prune") return;
+  app.add_option("--older-than", arguments.older_than, "Results made longer ago: 90s, 15m, 2h, 30d")
+      ->type_name("AGE");
+  app.add_option("--max-size", arguments.max_size, "The oldest results until the rest is no larger: 20 GB")
+      ->type_name("SIZE");
+  app.add_option("--keep", arguments.keep, "All results but those these pipelines would use now; repeatable")
+      ->type_name("CONFIG")
+      ->allow_extra_args(false);
+  app.add_flag("--dry-run", arguments.dry_run, "Only say what would be removed");
+}
+
+void add_command(CLI::App& root, const Command& command, Arguments& arguments) {
+  CLI::App& app = *root.add_subcommand(command.name, command.help);
+  const unsigned takes = command.takes;
+  add_config(app, arguments, takes);
+  if (takes & kPlaces) add_places(app, arguments);
+  if (takes & kPrograms) add_programs(app, arguments);
+  if (takes & kSelection) add_selection(app, arguments);
+  if (takes & kThreads)
+    app.add_option("--threads", arguments.threads,
+                   "Threads of each stage, 0 = all cores; never changes a result [0]")
+        ->check(CLI::Range(0, 1024));
+  if (takes & kExecution) add_run_flags(app, arguments);
+  if (takes & kJson) app.add_flag("--json", arguments.json, "Print JSON");
+  add_own_flags(app, command.name, arguments);
+  app.callback([&arguments, &command] { arguments.command = &command; });
 }
 
 std::string unknown_command(const std::string& name) {
   std::vector<std::string> known;
-  for (const Command& command : kCommands) known.push_back(command.name);
+  for (const Command& command : commands()) known.push_back(command.name);
   return "unknown command \"" + name + "\"" + did_you_mean(name, known);
 }
 
@@ -102,9 +117,9 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
   CLI::App app("Runs pipelines of stages; keeps every result that is still right", "sediment");
   Arguments arguments;
   app.set_version_flag("--version", SEDIMENT_VERSION);
-  for (const Command& command : kCommands) add_command(app, command, arguments);
+  for (const Command& command : commands()) add_command(app, command, arguments);
   const auto is_first = [&](const Command& command) { return std::string(command.name) == argv[1]; };
-  if (argc > 1 && argv[1][0] != '-' && std::none_of(std::begin(kCommands), std::end(kCommands), is_first))
+  if (argc > 1 && argv[1][0] != '-' && std::none_of(commands().begin(), commands().end(), is_first))
     throw UsageError(unknown_command(argv[1]));
   app.require_subcommand(1);
   try {
@@ -116,7 +131,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     throw UsageError(error.what());
   }
   // `sediment why sor configs/paper` means the same as `sediment why configs/paper sor`.
-  if (arguments.command == "why" && !fs::exists(arguments.config) && fs::exists(arguments.stage)) {
+  if (!arguments.stage.empty() && !fs::exists(arguments.config) && fs::exists(arguments.stage)) {
     const std::string stage = arguments.config.string();
     arguments.config = arguments.stage;
     arguments.stage = stage;

@@ -7,11 +7,13 @@
 
 namespace sediment::runner {
 
+struct Command;
+
 /// A call of `sediment`, understood.
 struct Arguments {
-  std::string command;  ///< run, plan, why, graph, status
-  std::filesystem::path config;
-  std::string stage;  ///< of why, may be empty
+  const Command* command = nullptr;
+  std::filesystem::path config;  ///< or the folder of seal
+  std::string stage;
   std::string only, from, until;
   std::vector<std::string> set;
   std::vector<std::string> resources;        ///< what this machine has, name=amount
@@ -19,7 +21,11 @@ struct Arguments {
   int jobs = 0;                              ///< 0 = one per core
   int threads = 0;                           ///< 0 = all cores
   bool keep_going = false, rehash = false, durable = false, no_space_check = false, json = false;
-  double share = 1;             ///< of verify
+  double share = 1;     ///< of verify
+  bool remove = false;  ///< of pin and seal
+  std::string older_than, max_size;
+  std::vector<std::string> keep;  ///< pipelines whose results prune leaves
+  bool dry_run = false;
   std::string format = "text";  ///< of graph
 };
 

@@ -8,9 +8,10 @@
 
 #include "pipeline/contract/errors.hpp"
 #include "pipeline/runner/commands/closing_table.hpp"
-#include "pipeline/runner/commands/commands.hpp"
+#include "pipeline/runner/commands/command_table.hpp"
 #include "pipeline/runner/commands/opened_pipeline.hpp"
 #include "pipeline/runner/execution/scheduler.hpp"
+#include "pipeline/runner/store/pruning.hpp"
 
 namespace sediment::runner {
 namespace {
@@ -77,6 +78,7 @@ int run(const Arguments& arguments) {
   options.logs = store.root() / "runs" / run_id();
   store.make(arguments.durable);
   store.remove_dead_attempts();
+  remember_workspace(store, opened.instance.out);
   Display display;
   const std::vector<Instance> instances{std::move(opened.instance)};
   Scheduler scheduler(instances, store, options, signals, display);

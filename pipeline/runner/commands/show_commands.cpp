@@ -1,69 +1,68 @@
 #include <fmt/format.h>
 
 #include "pipeline/contract/errors.hpp"
-#include "pipeline/runner/commands/commands.hpp"
-#include "pipeline/runner/commands/opened_pipeline.hpp"
+#include "pipeline/runner/commands/command_table.hpp"
+#include "pipeline/runner/commands/look.hpp"
 #include "pipeline/runner/config/graph_text.hpp"
-#include "pipeline/runner/execution/plan.hpp"
 #include "pipeline/runner/execution/text_table.hpp"
 
 namespace sediment::runner {
 namespace {
 
+using contract::Json;
 using State = PlannedTask::State;
 
-std::string quoted(const std::string& word) {
-  if (!word.empty() && word.find_first_of(" \t\n'\"\\$&|;<>()*?[]{}#~`!") == std::string::npos) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
-  return text + '\'';
+int print_json(const Json& json) {
+  fmt::print("{}\n", json.dump(1));
+  return contract::kDone;
 }
 
-std::string call_of(const std::vector<std::string>& argv) {
-  std::string text;
-  for (const std::string& word : argv) text += (text.empty() ? "" : " ") + quoted(word);
-  return text;
+Json json_of(const Look& all, std::size_t idx) {
+  const PlannedTask& task = all.tasks[idx];
+  Json json = {{"stage", all.stage(idx).name},
+               {"state", name_of(task.state)},
+               {"why", task.why.text},
+               {"argv", task.argv},
+               {"key", task.key ? Json(task.key->id) : Json()},
+               {"parts", task.key ? Json::parse(task.key->text) : Json()},
+               {"object", task.hit ? Json(task.hit->object) : Json()},
+               {"bytes", task.hit ? Json(task.hit->bytes) : Json()},
+               {"differences", Json::array()}};
+  for (const Difference& one : task.why.differences)
+    json["differences"].push_back({{"part", one.part}, {"before", one.before}, {"after", one.after}});
+  return json;
 }
 
-const char* name_of_state(State state) {
-  switch (state) {
-    case State::kept:
-      return "kept";
-    case State::runs:
-      return "runs";
-    case State::behind:
-      return "may run";
-    case State::skipped:
-      return "skipped";
-  }
-  return "";
+/// The stages that are looked at, as JSON.
+Json json_of(const Look& all) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < all.tasks.size(); ++i)
+    if (all.tasks[i].state != State::skipped) json.push_back(json_of(all, i));
+  return json;
 }
 
-struct Look {
-  OpenedPipeline opened;
-  std::vector<PlannedTask> tasks;
-  const PlannedStage& stage(std::size_t i) const { return opened.instance.graph->stages[i]; }
-};
-
-Look look(const Arguments& arguments) {
-  Look all{open_pipeline(arguments), {}};
-  all.tasks = plan(all.opened.instance, *all.opened.store, arguments.threads);
-  all.opened.store->memory().save();
-  return all;
+std::string state_in_status(const Look& all, std::size_t idx) {
+  const PlannedTask& task = all.tasks[idx];
+  const StageRecord* last = all.last_of(idx);
+  if (task.state == State::kept) return "up to date";
+  if (task.key && all.opened.store->is_locked(task.key->id)) return "running";
+  if (last != nullptr && last->state == "failed") return "failed";
+  return task.state == State::behind ? "may run" : "to run";
 }
 
 }  // namespace
 
 int show_plan(const Arguments& arguments) {
   const Look all = look(arguments);
+  if (arguments.json) return print_json(json_of(all));
   int kept = 0, runs = 0, behind = 0;
   for (std::size_t i = 0; i < all.tasks.size(); ++i) {
     const PlannedTask& task = all.tasks[i];
     if (task.state == State::skipped) continue;
     (task.state == State::kept ? kept : task.state == State::runs ? runs : behind) += 1;
     const std::string why = task.why.text.empty() ? "" : " (" + task.why.text + ')';
-    fmt::print("{}: {}{}\n", all.stage(i).name, name_of_state(task.state), why);
-    if (task.state != State::kept) fmt::print("  {}\n", call_of(task.argv));
+    fmt::print("{}: {}{}\n", all.stage(i).name, name_of(task.state), why);
+    if (task.state != State::kept) fmt::print("  {}\n", shell_text(task.argv));
   }
   fmt::print("{} kept, {} to run, {} behind them\n", kept, runs, behind);
   return contract::kDone;
@@ -72,18 +71,19 @@ int show_plan(const Arguments& arguments) {
 int show_why(const Arguments& arguments) {
   const Look all = look(arguments);
   const int wanted = arguments.stage.empty() ? -1 : all.opened.instance.graph->index_of(arguments.stage);
-  const auto last = Workspace(all.opened.instance.out).read_record();
+  if (arguments.json)
+    return print_json(wanted < 0 ? json_of(all) : json_of(all, static_cast<std::size_t>(wanted)));
   for (std::size_t i = 0; i < all.tasks.size(); ++i) {
     const PlannedTask& task = all.tasks[i];
     const std::string& name = all.stage(i).name;
     if ((wanted >= 0 && static_cast<int>(i) != wanted) || task.state == State::skipped) continue;
     if (task.state == State::kept) {
-      const auto record = last.find(name);
-      const bool known = record != last.end() && !record->second.why.empty();
-      fmt::print("{}: kept{}\n", name, known ? "; it last ran for: " + record->second.why : "");
+      const StageRecord* last = all.last_of(i);
+      const bool known = last != nullptr && !last->why.empty();
+      fmt::print("{}: kept{}\n", name, known ? "; it last ran for: " + last->why : "");
       continue;
     }
-    fmt::print("{}: {} ({})\n", name, name_of_state(task.state), task.why.text);
+    fmt::print("{}: {} ({})\n", name, name_of(task.state), task.why.text);
     for (const Difference& difference : task.why.differences) fmt::print("  {}\n", difference.text());
   }
   return contract::kDone;
@@ -91,25 +91,24 @@ int show_why(const Arguments& arguments) {
 
 int show_graph(const Arguments& arguments) {
   const OpenedPipeline opened = open_pipeline(arguments);
-  fmt::print("{}", graph_text(*opened.instance.graph, arguments.format));
+  const Graph& graph = *opened.instance.graph;
+  if (arguments.json) return print_json(graph_json(graph));
+  fmt::print("{}", graph_text(graph, arguments.format));
   return contract::kDone;
 }
 
 int show_status(const Arguments& arguments) {
   const Look all = look(arguments);
-  const auto last = Workspace(all.opened.instance.out).read_record();
+  Json json = json_of(all);
   std::vector<std::vector<std::string>> rows{{"stage", "state", "result", "why"}};
   for (std::size_t i = 0; i < all.tasks.size(); ++i) {
     const PlannedTask& task = all.tasks[i];
     if (task.state == State::skipped) continue;
-    const auto record = last.find(all.stage(i).name);
-    std::string state = task.state == State::kept ? "up to date" : "to run";
-    if (task.state == State::behind) state = "may run";
-    if (task.state != State::kept && record != last.end() && record->second.state == "failed")
-      state = "failed";
-    if (task.key && !task.hit && all.opened.store->is_locked(task.key->id)) state = "running";
-    rows.push_back({all.stage(i).name, state, task.hit ? shown_bytes(task.hit->bytes) : "-", task.why.text});
+    json.at(rows.size() - 1)["state"] = state_in_status(all, i);
+    rows.push_back({all.stage(i).name, state_in_status(all, i), task.hit ? shown_bytes(task.hit->bytes) : "-",
+                    task.why.text});
   }
+  if (arguments.json) return print_json(json);
   fmt::print("{}", aligned(rows, {2}));
   return contract::kDone;
 }

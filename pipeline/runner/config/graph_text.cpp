@@ -54,6 +54,19 @@ std::string plain(const Graph& graph) {
 
 }  // namespace
 
+contract::Json graph_json(const Graph& graph) {
+  using contract::Json;
+  Json json = {{"sources", Json::array()}, {"stages", Json::array()}};
+  for (const Source& source : graph.sources)
+    json["sources"].push_back({{"name", source.name}, {"kind", source.kind}, {"path", source.path.string()}});
+  for (const PlannedStage& stage : graph.stages)
+    json["stages"].push_back({{"name", stage.name}, {"params", stage.params}, {"reads", Json::object()}});
+  for_each_edge(graph, [&](const auto& from, const auto& role, const auto& to) {
+    json["stages"].at(static_cast<std::size_t>(graph.index_of(to)))["reads"][role] = from;
+  });
+  return json;
+}
+
 std::string graph_text(const Graph& graph, const std::string& format) {
   if (format == "mermaid") return mermaid(graph);
   return format == "dot" ? dot(graph) : plain(graph);

@@ -25,6 +25,7 @@ class FileDigests {
   void add(const std::vector<std::filesystem::path>& files);
   /// Of a file that was added.
   const Known& at(const std::filesystem::path& file) const { return known_.at(file.native()); }
+  StatMemory& memory() { return memory_; }
   /// Adds one file.
   const Known& of(const std::filesystem::path& file);
 

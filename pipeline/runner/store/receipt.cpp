@@ -35,6 +35,7 @@ std::string text_of(const Receipt& receipt) {
   json["host"] = receipt.host;
   json["started"] = receipt.started;
   json["why"] = receipt.why;
+  if (!receipt.accepted.is_null()) json["accepted"] = receipt.accepted;
   json["log"] = receipt.log;
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   text.pop_back();
@@ -63,6 +64,7 @@ Receipt receipt_from(const std::string& text) {
   receipt.host = json.at("host");
   receipt.started = json.at("started");
   receipt.why = json.at("why");
+  receipt.accepted = json.value("accepted", Json());
   receipt.log = json.at("log");
   return receipt;
 }

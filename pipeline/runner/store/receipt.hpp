@@ -25,7 +25,9 @@ struct Receipt {
   std::string host;
   std::string started;  ///< UTC, ISO 8601
   std::string why;      ///< what it was run for
-  std::string log;      ///< what the stage said; of a long log the end
+  contract::Json
+      accepted;     ///< if it was not made but taken over by `sediment accept`: from which key, when, by whom
+  std::string log;  ///< what the stage said; of a long log the end
 };
 
 /// JSON that ends with a digest of all before it.

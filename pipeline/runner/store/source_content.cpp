@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "pipeline/contract/description.hpp"
 #include "pipeline/contract/digest.hpp"
 #include "pipeline/contract/errors.hpp"
 #include "pipeline/contract/manifest.hpp"
+#include "pipeline/runner/store/sealed_folder.hpp"
 
 namespace sediment::runner {
 namespace {
@@ -51,16 +53,32 @@ struct SequenceContent {
   }
 };
 
-/// The files named in the second column of a list; '#' begins a comment.
-std::vector<fs::path> images_of(const fs::path& list, const fs::path& root) {
-  std::vector<fs::path> images;
+/// The names in the second column of a list; '#' begins a comment.
+std::vector<std::string> images_in(const fs::path& list) {
+  std::vector<std::string> images;
   std::ifstream stream(list);
   for (std::string line; std::getline(stream, line);) {
     std::istringstream words(line);
     std::string stamp, name;
-    if (words >> stamp >> name && stamp[0] != '#') images.push_back(root / name);
+    if (words >> stamp >> name && stamp[0] != '#') images.push_back(name);
   }
   return images;
+}
+
+/// Digest of a list and of all images it names, each given by its name relative to the root.
+std::string list_id(const fs::path& root, const std::string& list, FileDigests& digests,
+                    const std::map<std::string, std::string>& sealed) {
+  const auto is_sealed = [&](const std::string& name) { return sealed.contains(name); };
+  std::vector<std::string> names = images_in(root / list);
+  names.push_back(list);
+  std::vector<fs::path> open;
+  for (const std::string& name : names)
+    if (!is_sealed(name)) open.push_back(root / name);
+  digests.add(open);
+  std::string text;
+  for (const std::string& name : names)
+    text += (is_sealed(name) ? sealed.at(name) : digests.at(root / name).digest) + '\n';
+  return contract::digest_bytes(text);
 }
 
 std::string sequence_id(const fs::path& yaml, FileDigests& digests) {
@@ -74,18 +92,19 @@ std::string sequence_id(const fs::path& yaml, FileDigests& digests) {
   SequenceContent content{yaml.parent_path(), yaml.parent_path(), digests};
   if (node["root"] && node["root"].IsScalar()) content.root = content.folder / node["root"].Scalar();
   node.remove("root");
-  std::string text;
+  std::string text = content.value_of(node).dump();
+  auto sealed = SealedFolder::open(content.root, digests.memory());
   for (const auto& [key, usual] : {std::pair("color", "rgb.txt"), std::pair("depth", "depth.txt")}) {
-    const fs::path list = content.root / (node[key] ? node[key].Scalar() : usual);
-    std::vector<fs::path> images = images_of(list, content.root);
-    digests.add(images);
-    text += std::string(key) + ' ' + digests.of(list).digest + '\n';
-    for (const fs::path& image : images) text += digests.at(image).digest + '\n';
+    const std::string list = node[key] ? node[key].Scalar() : usual;
+    const auto id = [&](const auto& known) { return list_id(content.root, list, digests, known); };
+    text += std::string("\n") + key + ' ' +
+            (sealed ? sealed->derived(list, id) : id(std::map<std::string, std::string>()));
   }
-  return contract::digest_bytes(content.value_of(node).dump() + '\n' + text);
+  return contract::digest_bytes(text);
 }
 
 std::string folder_id(const fs::path& folder, FileDigests& digests) {
+  if (const auto sealed = SealedFolder::open(folder, digests.memory())) return sealed->id();
   contract::Manifest manifest;
   std::vector<fs::path> files;
   for (const auto& entry :

@@ -94,6 +94,10 @@ void StatMemory::remember(Use use, const std::string& path, const FileStat& stat
   changed_ = true;
 }
 
+void StatMemory::forget(Use use, std::string_view path) {
+  changed_ |= entries_.erase(name_in_memory(use, path)) > 0;
+}
+
 void StatMemory::save() {
   if (!changed_) return;
   changed_ = false;

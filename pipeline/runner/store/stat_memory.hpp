@@ -29,7 +29,7 @@ FileStat file_stat(const struct stat& raw);
 class StatMemory {
  public:
   /// What a value was derived from the file for: part of its name in the memory.
-  enum class Use : char { digest = 'd', description = 's', receipt = 'r' };
+  enum class Use : char { digest = 'd', description = 's', receipt = 'r', seal = 'm' };
 
   /// An unreadable, corrupt or foreign file counts as empty.
   explicit StatMemory(std::filesystem::path file);
@@ -39,6 +39,8 @@ class StatMemory {
   /// changed at least two seconds before now: a later write within the same tick of the clock would not be
   /// seen otherwise (git's "racy" rule).
   void remember(Use use, const std::string& path, const FileStat& stat, std::string value, bool may_change);
+
+  void forget(Use use, std::string_view path);
 
   /// Writes the file anew if something was learnt. A memory that cannot be written is no error.
   void save();

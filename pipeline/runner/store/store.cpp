@@ -8,7 +8,7 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 
 #include "pipeline/contract/errors.hpp"
 #include "pipeline/runner/store/durable.hpp"
@@ -105,16 +105,25 @@ bool Store::is_whole(const std::string& summary) const {
   return true;
 }
 
-std::optional<Receipt> Store::receipt(const std::string& key) const try {
-  std::ifstream stream(receipt_path(key), std::ios::binary);
+std::optional<Receipt> Store::receipt(const std::string& key) const {
+  return receipt_in(receipt_path(key));
+}
+
+std::optional<Receipt> Store::receipt_in(const fs::path& file) const try {
+  std::ifstream stream(file, std::ios::binary);
   if (!stream) return std::nullopt;
-  std::stringstream text;
-  text << stream.rdbuf();
-  Receipt read = receipt_from(text.str());
-  if (read.key != key) return std::nullopt;
+  Receipt read = receipt_from(std::string(std::istreambuf_iterator<char>(stream), {}));
+  if (receipt_path(read.key) != file) return std::nullopt;
   return read;
 } catch (const std::exception&) {
   return std::nullopt;
+}
+
+std::vector<fs::path> Store::receipt_files() const {
+  return sharded_entries(root_ / "receipts");
+}
+std::vector<fs::path> Store::object_folders() const {
+  return sharded_entries(root_ / "objects");
 }
 
 void Store::put_aside(const fs::path& path) const {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pipeline/contract/manifest.hpp"
 #include "pipeline/runner/store/key_lock.hpp"
@@ -36,6 +37,10 @@ class Store {
   std::optional<Hit> find(const std::string& key);
   /// The receipt of a key, whether or not its result is still there.
   std::optional<Receipt> receipt(const std::string& key) const;
+  /// The receipt in a file of the store; nothing if it is damaged or not where it belongs.
+  std::optional<Receipt> receipt_in(const std::filesystem::path& file) const;
+  std::vector<std::filesystem::path> receipt_files() const;
+  std::vector<std::filesystem::path> object_folders() const;
 
   std::optional<KeyLock> try_lock(const std::string& key) const;
   bool is_locked(const std::string& key) const;

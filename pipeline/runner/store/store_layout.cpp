@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -55,6 +56,15 @@ std::string bare(const std::string& id) {
 std::string object_name(const std::string& id) {
   const std::string name = bare(id);
   return name.substr(0, 2) + '/' + name.substr(2);
+}
+
+std::vector<fs::path> sharded_entries(const fs::path& folder) {
+  std::vector<fs::path> all;
+  std::error_code ignored;
+  for (const auto& shard : fs::directory_iterator(folder, ignored))
+    for (const auto& entry : fs::directory_iterator(shard.path(), ignored)) all.push_back(entry.path());
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
 std::string host_name() {

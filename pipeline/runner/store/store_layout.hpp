@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace sediment::runner {
 
@@ -20,6 +21,9 @@ std::string bare(const std::string& id);
 
 /// "ab/cdef...": where an object or a receipt lies in its folder, so that no folder gets too large.
 std::string object_name(const std::string& id);
+
+/// The entries of all FOLDER/ab/, sorted.
+std::vector<std::filesystem::path> sharded_entries(const std::filesystem::path& folder);
 
 /// Name of this machine.
 std::string host_name();

@@ -1,6 +1,6 @@
 #include "pipeline/runner/store/verification.hpp"
 
-#include <fstream>
+#include <algorithm>
 #include <iterator>
 #include <random>
 
@@ -11,15 +11,6 @@ namespace sediment::runner {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The entries of FOLDER/ab/.
-std::vector<fs::path> sharded_entries(const fs::path& folder) {
-  std::vector<fs::path> all;
-  std::error_code ignored;
-  for (const auto& shard : fs::directory_iterator(folder, ignored))
-    for (const auto& entry : fs::directory_iterator(shard.path(), ignored)) all.push_back(entry.path());
-  return all;
-}
 
 /// What is wrong with a result; empty if nothing is.
 std::string damage_of_object(const fs::path& object, std::uint64_t& bytes) try {
@@ -34,14 +25,10 @@ std::string damage_of_object(const fs::path& object, std::uint64_t& bytes) try {
   return error.what();
 }
 
-std::string damage_of_receipt(const fs::path& file, const Store& store) try {
-  std::ifstream stream(file, std::ios::binary);
-  const Receipt receipt = receipt_from(std::string(std::istreambuf_iterator<char>(stream), {}));
-  if (store.receipt_path(receipt.key) != file) return "it is not the receipt its name says";
-  if (!fs::exists(store.object_path(receipt.object))) return "its result is gone";
-  return "";
-} catch (const std::exception& error) {
-  return error.what();
+std::string damage_of_receipt(const fs::path& file, const Store& store) {
+  const auto receipt = store.receipt_in(file);
+  if (!receipt) return "it is cut or changed";
+  return fs::exists(store.object_path(receipt->object)) ? "" : "its result is gone";
 }
 
 }  // namespace
@@ -53,7 +40,7 @@ Verification verify(const Store& store, double share) {
     all.damages.push_back(std::string(what) + ' ' + path.string() + ": " + damage);
     store.put_aside(path);
   };
-  std::vector<fs::path> objects = sharded_entries(store.root() / "objects"), sample;
+  std::vector<fs::path> objects = store.object_folders(), sample;
   std::mt19937 random{std::random_device{}()};
   std::sample(objects.begin(), objects.end(), std::back_inserter(sample),
               static_cast<std::size_t>(share * static_cast<double>(objects.size()) + 0.999999), random);
@@ -65,7 +52,7 @@ Verification verify(const Store& store, double share) {
       progress.advance();
     }
   }
-  for (const fs::path& receipt : sharded_entries(store.root() / "receipts")) {
+  for (const fs::path& receipt : store.receipt_files()) {
     note("receipt", receipt, damage_of_receipt(receipt, store));
     ++all.receipts;
   }

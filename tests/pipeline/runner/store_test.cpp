@@ -47,20 +47,20 @@ TEST_CASE("verify reads everything and puts aside what changed without changing 
   const Workbench bench;
   REQUIRE(bench.run(bench.noted()).code == 0);
   bench.started();
-  const auto well = bench.call("verify");
+  const auto well = bench.sediment("verify --out out");
   CHECK(well.code == 0);
   CHECK_THAT(well.out, Contains("4 receipts and 4 results") && Contains("all well"));
   const std::string text = bench.read("out/smooth/text.txt");
   bench.shell("chmod u+w out/smooth/text.txt; printf X | dd of=out/smooth/text.txt conv=notrunc status=none");
   CHECK_THAT(bench.run(bench.noted()).out, Contains("4 kept"));
-  const auto found = bench.call("verify");
+  const auto found = bench.sediment("verify --out out");
   CHECK(found.code == 1);
   CHECK_THAT(found.out, Contains("its files do not match its manifest"));
   CHECK_THAT(found.out, Contains("its result is gone"));
   REQUIRE(bench.run(bench.noted()).code == 0);
   CHECK(bench.started() == "smooth");
   CHECK(bench.read("out/smooth/text.txt") == text);
-  CHECK(bench.call("verify").code == 0);
+  CHECK(bench.sediment("verify --out out").code == 0);
   CHECK_THAT(bench.sediment("verify --store out/.sediment --share 0.5").out,
              Contains("4 receipts and 2 results"));
   CHECK(bench.sediment("verify --store data").code == 2);

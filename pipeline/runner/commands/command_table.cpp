@@ -1,0 +1,31 @@
+#include "pipeline/runner/commands/command_table.hpp"
+
+namespace sediment::runner {
+
+std::span<const Command> commands() {
+  static constexpr Command kCommands[] = {
+      {"run", "Bring the results of a pipeline up to date", kLook | kSelection | kThreads | kExecution, run},
+      {"plan", "Show what a run would do and why, with the exact calls; runs nothing",
+       kLook | kSelection | kThreads | kJson, show_plan},
+      {"why", "Show in what a stage differs from its last result, part by part",
+       kLook | kSelection | kOptionalStage | kJson, show_why},
+      {"status", "Show which results are there; runs nothing", kLook | kSelection | kJson, show_status},
+      {"graph", "Print the pipeline as text, Mermaid, DOT or JSON", kLook | kJson, show_graph},
+      {"log", "Print what a stage said when its result was made, or when it last failed", kLook | kStage,
+       show_log},
+      {"accept",
+       "Take the last result of a stage as right for what has changed since; recorded in its receipt",
+       kLook | kStage, accept_stage},
+      {"pin", "Keep the present results of a pipeline, or of one stage, from being pruned",
+       kLook | kOptionalStage, pin},
+      {"verify", "Check the results in a store by digest; what is damaged is put aside",
+       kOptionalConfig | kPlaces, verify_store},
+      {"prune", "Remove results from a store by age, size or reachability",
+       kOptionalConfig | kPlaces | kPrograms, prune_store},
+      {"seal", "Digest a dataset once: later runs trust its manifest.json and look at no other file of it",
+       kFolder, seal},
+  };
+  return kCommands;
+}
+
+}  // namespace sediment::runner
