@@ -41,36 +41,86 @@ class PoseManifold : public ceres::Manifold {
   bool MinusJacobian(const double*, double*) const override { return false; }
 };
 
+// The residual of one observation and its derivatives by camera and point.
+bool evaluate(const Measurement& measurement, const Pinhole& pinhole, double const* camera,
+              double const* point, double* residuals, double* by_camera, double* by_position) {
+  const RowMajor3 rotation = Eigen::Map<const Eigen::Quaterniond>(camera).toRotationMatrix();
+  const Eigen::Vector3d turned = rotation * Eigen::Map<const Eigen::Vector3d>(point);
+  const Vec3 p{turned.x() + camera[4], turned.y() + camera[5], turned.z() + camera[6]};
+  if (p.z < kNearest_m) return false;  // the step is refused and shortened
+  const auto r = residual_of(measurement, pinhole, p);
+  std::copy(r.begin(), r.end(), residuals);
+  if (!by_camera && !by_position) return true;
+  const auto by_point_values = residual_by_point(measurement, pinhole, p);
+  const Eigen::Map<const RowMajor3> by_point(by_point_values.data());
+  if (by_camera) {
+    Eigen::Map<Eigen::Matrix<double, 3, 7, Eigen::RowMajor>> j(by_camera);
+    RowMajor3 cross;  // derivative of exp(w) q by w: -[q]x, q = R * point
+    cross << 0, turned.z(), -turned.y(), -turned.z(), 0, turned.x(), turned.y(), -turned.x(), 0;
+    j.leftCols<3>().noalias() = by_point * cross;
+    j.middleCols<3>(3) = by_point;
+    j.col(6).setZero();
+  }
+  if (by_position) Eigen::Map<RowMajor3>(by_position).noalias() = by_point * rotation;
+  return true;
+}
+
 class ObservationCost : public ceres::SizedCostFunction<3, 7, 3> {
  public:
   ObservationCost(const Measurement& measurement, const Pinhole& pinhole)
       : measurement_(measurement), pinhole_(pinhole) {}
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    const RowMajor3 rotation = Eigen::Map<const Eigen::Quaterniond>(parameters[0]).toRotationMatrix();
-    const Eigen::Vector3d turned = rotation * Eigen::Map<const Eigen::Vector3d>(parameters[1]);
-    const Vec3 p{turned.x() + parameters[0][4], turned.y() + parameters[0][5], turned.z() + parameters[0][6]};
-    if (p.z < kNearest_m) return false;  // the step is refused and shortened
-    const auto r = residual_of(measurement_, pinhole_, p);
-    std::copy(r.begin(), r.end(), residuals);
-    if (!jacobians) return true;
-    const auto by_point_values = residual_by_point(measurement_, pinhole_, p);
-    const Eigen::Map<const RowMajor3> by_point(by_point_values.data());
-    if (jacobians[0]) {
-      Eigen::Map<Eigen::Matrix<double, 3, 7, Eigen::RowMajor>> j(jacobians[0]);
-      RowMajor3 cross;  // derivative of exp(w) q by w: -[q]x, q = R * point
-      cross << 0, turned.z(), -turned.y(), -turned.z(), 0, turned.x(), turned.y(), -turned.x(), 0;
-      j.leftCols<3>().noalias() = by_point * cross;
-      j.middleCols<3>(3) = by_point;
-      j.col(6).setZero();
-    }
-    if (jacobians[1]) Eigen::Map<RowMajor3>(jacobians[1]).noalias() = by_point * rotation;
-    return true;
+    return evaluate(measurement_, pinhole_, parameters[0], parameters[1], residuals,
+                    jacobians ? jacobians[0] : nullptr, jacobians ? jacobians[1] : nullptr);
   }
 
  private:
   const Measurement& measurement_;
   const Pinhole& pinhole_;
+};
+
+// The same with the change of the sensor's timing (readout, depth lag) as a third block.
+class TimedObservationCost : public ceres::SizedCostFunction<3, 7, 3, 2> {
+ public:
+  TimedObservationCost(const Measurement& measurement, const Pinhole& pinhole)
+      : measurement_(measurement), pinhole_(pinhole) {}
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    Measurement timed = measurement_;
+    timed.u_px += parameters[2][0] * timed.u_rate;
+    timed.v_px += parameters[2][0] * timed.v_rate;
+    if (timed.inverse_depth > 0) timed.inverse_depth += parameters[2][1] * timed.depth_rate;
+    if (jacobians && jacobians[2]) {
+      Eigen::Map<Eigen::Matrix<double, 3, 2, Eigen::RowMajor>> j(jacobians[2]);
+      j << -timed.pixel_weight * timed.u_rate, 0, -timed.pixel_weight * timed.v_rate, 0, 0,
+          timed.inverse_depth > 0 ? -timed.depth_weight * timed.depth_rate : 0.0;
+    }
+    return evaluate(timed, pinhole_, parameters[0], parameters[1], residuals,
+                    jacobians ? jacobians[0] : nullptr, jacobians ? jacobians[1] : nullptr);
+  }
+
+ private:
+  const Measurement& measurement_;
+  const Pinhole& pinhole_;
+};
+
+// Weak knowledge of the timing: within 1/30 s, the period of a frame.
+class TimingPrior : public ceres::SizedCostFunction<2, 2> {
+ public:
+  explicit TimingPrior(const SensorTiming& start) : start_(start) {}
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    residuals[0] = 30 * (start_.readout_s + parameters[0][0]);
+    residuals[1] = 30 * (start_.depth_lag_s + parameters[0][1]);
+    if (jacobians && jacobians[0]) {
+      jacobians[0][0] = jacobians[0][3] = 30;
+      jacobians[0][1] = jacobians[0][2] = 0;
+    }
+    return true;
+  }
+
+ private:
+  SensorTiming start_;
 };
 
 ceres::Solver::Options options_of(const AdjustmentRule& rule, int free_cameras) {
@@ -97,6 +147,12 @@ double adjust(Bundle& bundle, const Pinhole& pinhole, const AdjustmentRule& rule
   ceres::Problem problem(ownership);
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
 
+  std::array<double, 2> timing{};  // change of the timing
+  if (rule.timing) {
+    problem.AddParameterBlock(timing.data(), 2);
+    ordering->AddElementToGroup(timing.data(), 1);
+    problem.AddResidualBlock(new TimingPrior(bundle.timing), nullptr, timing.data());
+  }
   std::vector<std::array<double, 7>> cameras(bundle.cameras.size());
   int free_cameras = 0;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -113,9 +169,13 @@ double adjust(Bundle& bundle, const Pinhole& pinhole, const AdjustmentRule& rule
     ordering->AddElementToGroup(&point.x, 0);
   }
   for (const Bundle::Observation& o : bundle.observations) {
-    ceres::LossFunction* loss = o.measurement.inverse_depth > 0 ? &huber3 : &huber2;
-    problem.AddResidualBlock(new ObservationCost(o.measurement, pinhole), rule.robust ? loss : nullptr,
-                             cameras[o.camera_idx].data(), &bundle.points[o.point_idx].x);
+    ceres::LossFunction* loss = !rule.robust ? nullptr : o.measurement.inverse_depth > 0 ? &huber3 : &huber2;
+    double *const camera = cameras[o.camera_idx].data(), *const point = &bundle.points[o.point_idx].x;
+    if (rule.timing)
+      problem.AddResidualBlock(new TimedObservationCost(o.measurement, pinhole), loss, camera, point,
+                               timing.data());
+    else
+      problem.AddResidualBlock(new ObservationCost(o.measurement, pinhole), loss, camera, point);
   }
   ceres::Solver::Options options = options_of(rule, free_cameras);
   options.linear_solver_ordering = ordering;
@@ -127,6 +187,8 @@ double adjust(Bundle& bundle, const Pinhole& pinhole, const AdjustmentRule& rule
       bundle.cameras[i].camera_from_world =
           pose_from({cameras[i][0], cameras[i][1], cameras[i][2], cameras[i][3]},
                     {cameras[i][4], cameras[i][5], cameras[i][6]});
+  bundle.timing.readout_s += timing[0];
+  bundle.timing.depth_lag_s += timing[1];
   return summary.final_cost;
 }
 

@@ -19,11 +19,13 @@ struct Bundle {
   std::vector<Camera> cameras;
   std::vector<Vec3> points;
   std::vector<Observation> observations;
+  SensorTiming timing;  ///< that the measurements were made with; improved if the rule says so
 };
 
 struct AdjustmentRule {
   int max_iterations = 10;
-  bool robust = true;  ///< Huber loss at the 95 % bound; plain least squares without
+  bool robust = true;   ///< Huber loss at the 95 % bound; plain least squares without
+  bool timing = false;  ///< finds the sensor's timing too, with a weak prior at 0 where nothing tells it
 };
 
 /// Minimises the sum of the squared residuals over all cameras that are not fixed and over all points, in

@@ -7,7 +7,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "stages/track/corners.hpp"
-#include "stages/track/reliable_depth.hpp"
 
 namespace sediment::track {
 namespace {
@@ -44,7 +43,8 @@ std::vector<Descriptor> describe(const cv::Mat& gray, std::vector<cv::KeyPoint>&
 
 const std::array<float, kPyramidLevels> kLevelScale = level_scales();
 
-FrameFeatures::FrameFeatures(std::vector<Feature> features, std::vector<Descriptor> descriptors, int width,
+FrameFeatures::FrameFeatures(std::vector<Feature> features,
+                             std::shared_ptr<const std::vector<Descriptor>> descriptors, int width,
                              int height)
     : features_(std::move(features)),
       descriptors_(std::move(descriptors)),
@@ -82,22 +82,19 @@ void FrameFeatures::find_near(float u_px, float v_px, float radius_px, int min_o
     }
 }
 
-FrameFeatures extract_features(const cv::Mat& gray, const cv::Mat& depth, const cv::Mat& mask,
-                               const Camera& camera, const Parameters& parameters) {
+FrameFeatures find_features(const cv::Mat& gray, const cv::Mat& mask, const Camera& camera,
+                            const Parameters& parameters) {
   const cv::Mat allowed = allowed_pixels(mask, parameters.mask_halo_px);
   std::vector<cv::KeyPoint> corners = spread_corners(image_pyramid(gray), allowed, parameters.features);
-  std::vector<Descriptor> descriptors = describe(gray, corners);
+  auto descriptors = std::make_shared<const std::vector<Descriptor>>(describe(gray, corners));
   std::vector<Feature> features;
   features.reserve(corners.size());
   for (const cv::KeyPoint& corner : corners) {
     const Pixel ray = camera.undistort({corner.pt.x, corner.pt.y});
     Feature feature;
-    feature.u_px = static_cast<float>(camera.fx * ray.u + camera.cx);
-    feature.v_px = static_cast<float>(camera.fy * ray.v + camera.cy);
-    const double depth_m = reliable_depth_m(depth, cvRound(corner.pt.x), cvRound(corner.pt.y),
-                                            camera.depth_scale, parameters.depth_noise);
-    if (depth_m > 0 && depth_m <= parameters.depth_max_m)
-      feature.inverse_depth = static_cast<float>(1 / depth_m);
+    feature.u_px = feature.seen_u_px = static_cast<float>(camera.fx * ray.u + camera.cx);
+    feature.v_px = feature.seen_v_px = static_cast<float>(camera.fy * ray.v + camera.cy);
+    feature.row = corner.pt.y / static_cast<float>(camera.height) - 0.5f;
     feature.angle_deg = corner.angle;
     feature.octave = corner.octave;
     features.push_back(feature);

@@ -17,6 +17,7 @@ track::Recording recording_of(const Sequence& sequence, const DynamicMasksReader
   for (std::size_t i = 0; i < sequence.size(); ++i) {
     recording.stamps.push_back(sequence.entry(i).stamp);
     recording.stamps_s.push_back(sequence.entry(i).stamp_s);
+    recording.depth_stamps_s.push_back(sequence.entry(i).depth_stamp_s);
   }
   recording.frame = [&sequence](std::size_t i) { return sequence.frame(i); };
   if (masks)
@@ -52,6 +53,8 @@ int main(int argc, char** argv) {
               {1e-6, 1});
   stage.tunes("pixel_noise_px", parameters.pixel_noise_px,
               "standard deviation of a feature's position, pixels", {0.01, 10});
+  stage.tunes("passes", parameters.passes, "over the recording; later ones know its motion and timing",
+              {1, 5});
   stage.tunes("min_coverage", parameters.min_coverage, "an error if a smaller share of the frames has a pose",
               {0, 1});
   stage.tunes("max_gap_s", parameters.max_gap_s, "engine given: longest gap that is interpolated, seconds",
@@ -69,6 +72,8 @@ int main(int argc, char** argv) {
     work.metrics()["tracked"] = result.poses.size();
     work.metrics()["coverage"] = track::coverage(result.frames);
     work.metrics()["landmarks"] = result.landmarks;
+    work.metrics()["readout_s"] = result.timing.readout_s;
+    work.metrics()["depth_lag_s"] = result.timing.depth_lag_s;
     track::require_coverage(result.frames, parameters.min_coverage);
     write_trajectory(work.out(), result.poses, result.frames);
   });

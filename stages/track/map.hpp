@@ -31,6 +31,7 @@ struct Keyframe {
   Pose world_from_camera;
   std::shared_ptr<const FrameFeatures> features;
   std::vector<int> point_ids;  ///< per feature, -1 = none
+  double noise_scale = 1;      ///< of its measurements, as PoseEstimate
 };
 
 /// Landmarks and the keyframes that see them (ORB-SLAM's map: Mur-Artal and Tardos, T-RO 2017). Identifiers

@@ -8,6 +8,7 @@ namespace {
 constexpr int kLocalKeyframes = 8, kFixedKeyframes = 16, kLeastShared = 15;
 constexpr int kLocalIterations = 5, kFullIterations = 12;
 constexpr double kNearest_m = 0.1;
+constexpr double kBelievedGain = 0.01;  // share of the cost that a change of the sensor's timing must save
 
 // A part of the map as the solver takes it, and where its numbers came from.
 struct Extract {
@@ -37,7 +38,8 @@ Extract extract(const Map& map, const std::vector<std::pair<int, bool>>& keyfram
       if (camera_of[s.keyframe_idx] < 0) continue;
       const Bundle::Observation o{
           camera_of[s.keyframe_idx], static_cast<int>(i),
-          measurement_of(map.keyframes[s.keyframe_idx].features->feature(s.feature_idx), pinhole)};
+          measurement_of(map.keyframes[s.keyframe_idx].features->feature(s.feature_idx), pinhole,
+                         map.keyframes[s.keyframe_idx].noise_scale)};
       const Vec3 p = part.bundle.cameras[o.camera_idx].camera_from_world * part.bundle.points[i];
       if (p.z < kNearest_m) continue;
       part.bundle.observations.push_back(o);
@@ -103,15 +105,25 @@ void adjust_around(Map& map, int keyframe_idx, const Pinhole& pinhole) {
   drop_outliers(part, pinhole, map);
 }
 
-void adjust_all(Map& map, const Pinhole& pinhole) {
+SensorTiming adjust_all(Map& map, const Pinhole& pinhole, const SensorTiming& timing) {
   std::vector<std::pair<int, bool>> keyframes;
   for (int i = 0; i < static_cast<int>(map.keyframes.size()); ++i) keyframes.emplace_back(i, i == 0);
-  for (const bool robust : {true, false}) {
-    Extract part = extract(map, keyframes, pinhole);
-    adjust(part.bundle, pinhole, {kFullIterations, robust});
-    write_back(part, map);
-    drop_outliers(part, pinhole, map);
-  }
+  const auto adjusted = [&](Extract part, bool robust, bool timed) {
+    part.bundle.timing = timing;
+    const double cost = adjust(part.bundle, pinhole, {kFullIterations, robust, timed});
+    return std::pair(cost, std::move(part));
+  };
+  const Extract with_outliers = adjusted(extract(map, keyframes, pinhole), true, true).second;
+  write_back(with_outliers, map);
+  drop_outliers(with_outliers, pinhole, map);
+  const auto [timed_cost, timed] = adjusted(extract(map, keyframes, pinhole), false, true);
+  const auto [cost, untimed] = adjusted(timed, false, false);
+  const bool believed = timed_cost < (1 - kBelievedGain) * cost;
+         100 * (1 - timed_cost / cost), believed, timed.bundle.timing.readout_s,
+         timed.bundle.timing.depth_lag_s);
+         write_back(believed ? timed : untimed, map);
+         drop_outliers(believed ? timed : untimed, pinhole, map);
+         return (believed ? timed : untimed).bundle.timing;
 }
 
 }  // namespace sediment::track

@@ -33,7 +33,8 @@ void fuse_into(Map& map, int keyframe_idx, const std::vector<int>& point_ids, co
   const auto targets = visible_targets(map, absent, pinhole, keyframe.world_from_camera.inverse());
   for (const Match& match : match_targets(targets, *keyframe.features, none_taken, pinhole, rule)) {
     if (map.points[match.point_id].removed) continue;
-    const Measurement measurement = measurement_of(keyframe.features->feature(match.feature_idx), pinhole);
+    const Measurement measurement =
+        measurement_of(keyframe.features->feature(match.feature_idx), pinhole, keyframe.noise_scale);
     const auto r = residual_of(measurement, pinhole,
                                keyframe.world_from_camera.inverse() * map.points[match.point_id].position);
     if (r[0] * r[0] + r[1] * r[1] + r[2] * r[2] > chi_square_bound(measurement)) continue;
@@ -74,10 +75,11 @@ std::vector<int> points_of(const Map& map, const std::vector<int>& keyframes) {
 
 int add_keyframe(Map& map, int frame_idx, const Pose& world_from_camera,
                  std::shared_ptr<const FrameFeatures> features, const std::vector<Match>& matches,
-                 const Pinhole& pinhole) {
+                 double noise_scale, const Pinhole& pinhole) {
   const int keyframe_idx = static_cast<int>(map.keyframes.size());
   const std::size_t size = features->size();
-  map.keyframes.push_back({frame_idx, world_from_camera, std::move(features), std::vector<int>(size, -1)});
+  map.keyframes.push_back(
+      {frame_idx, world_from_camera, std::move(features), std::vector<int>(size, -1), noise_scale});
   for (const Match& match : matches) {
     map.connect(match.point_id, {keyframe_idx, match.feature_idx});
     map.refresh_point(match.point_id);

@@ -11,7 +11,7 @@ namespace sediment::track {
 /// recent landmarks that are seldom found again, and adjusts the neighbourhood. Returns the keyframe's index.
 int add_keyframe(Map& map, int frame_idx, const Pose& world_from_camera,
                  std::shared_ptr<const FrameFeatures> features, const std::vector<Match>& matches,
-                 const Pinhole& pinhole);
+                 double noise_scale, const Pinhole& pinhole);
 
 /// The landmarks of these keyframes, each once, in ascending order.
 std::vector<int> points_of(const Map& map, const std::vector<int>& keyframes);

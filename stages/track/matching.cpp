@@ -116,7 +116,7 @@ std::vector<std::pair<int, int>> match_descriptors(const FrameFeatures& first,
   constexpr int kMaxDistance = 70;
   constexpr double kBestToSecond = 0.85;
   std::vector<Nearest> of_first, of_second;
-  nearest_both_ways(first.descriptors(), first_used, second.descriptors(), of_first, of_second);
+  nearest_both_ways(*first.descriptors(), first_used, *second.descriptors(), of_first, of_second);
   std::vector<std::pair<int, int>> pairs;
   for (std::size_t i = 0; i < of_first.size(); ++i) {
     const Nearest& best = of_first[i];

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 namespace sediment::track {
@@ -12,6 +13,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 constexpr int kRounds = 4, kStepsPerRound = 6;
+constexpr double kLargestScale = 3;
 constexpr double kNearest_m = 0.05;  // a point nearer or behind cannot be projected
 
 double squared(const std::array<double, 3>& r) {
@@ -20,7 +22,7 @@ double squared(const std::array<double, 3>& r) {
 
 // One Gauss-Newton step; returns its length (radians and metres together).
 double step(const std::vector<Correspondence>& correspondences, const std::vector<char>& inlier,
-            const Pinhole& pinhole, bool robust, Pose& camera_from_world) {
+            const Pinhole& pinhole, double huber_scale, Pose& camera_from_world) {
   Matrix6 information = Matrix6::Zero();
   Vector6 gradient = Vector6::Zero();
   for (std::size_t i = 0; i < correspondences.size(); ++i) {
@@ -30,8 +32,8 @@ double step(const std::vector<Correspondence>& correspondences, const std::vecto
     if (p.z < kNearest_m) continue;
     const auto r = residual_of(measurement, pinhole, p);
     const auto by_point = residual_by_point(measurement, pinhole, p);
-    const double bound = chi_square_bound(measurement), chi_square = squared(r);
-    const double weight = robust && chi_square > bound ? std::sqrt(bound / chi_square) : 1.0;
+    const double bound = huber_scale * chi_square_bound(measurement), chi_square = squared(r);
+    const double weight = chi_square > bound ? std::sqrt(bound / chi_square) : 1.0;
     RowMajor3 cross;  // derivative of exp(w) p by w: -[p]x
     cross << 0, p.z, -p.y, -p.z, 0, p.x, p.y, -p.x, 0;
     Eigen::Matrix<double, 3, 6> jacobian;
@@ -48,6 +50,41 @@ double step(const std::vector<Correspondence>& correspondences, const std::vecto
   return delta.norm();
 }
 
+std::vector<double> all_chi_squares(const std::vector<Correspondence>& correspondences,
+                                    const Pinhole& pinhole, const Pose& camera_from_world) {
+  std::vector<double> chi_squares;
+  for (const Correspondence& c : correspondences) {
+    const Vec3 p = camera_from_world * c.point;
+    chi_squares.push_back(p.z < kNearest_m ? 1e9 : squared(residual_of(c.measurement, pinhole, p)));
+  }
+  return chi_squares;
+}
+
+// Median of the residuals over the median of their distribution.
+double noise_scale_squared(const std::vector<Correspondence>& correspondences,
+                           const std::vector<double>& chi_squares) {
+  constexpr double kMedian2 = 1.386, kMedian3 = 2.366;  // of chi-square with 2 and 3 degrees of freedom
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < chi_squares.size(); ++i)
+    ratios.push_back(chi_squares[i] /
+                     (correspondences[i].measurement.inverse_depth > 0 ? kMedian3 : kMedian2));
+  std::nth_element(ratios.begin(), ratios.begin() + ratios.size() / 2, ratios.end());
+  return std::clamp(ratios[ratios.size() / 2], 1.0, kLargestScale * kLargestScale);
+}
+
+double reprojection_error_px(const std::vector<Correspondence>& correspondences, const Pinhole& pinhole,
+                             const PoseEstimate& estimate) {
+  double sum = 0;
+  for (std::size_t i = 0; i < correspondences.size(); ++i) {
+    if (!estimate.inlier[i]) continue;
+    const Measurement& measurement = correspondences[i].measurement;
+    const Pixel pixel = pinhole.project(estimate.camera_from_world * correspondences[i].point);
+    sum += (pixel.u - measurement.u_px) * (pixel.u - measurement.u_px) +
+           (pixel.v - measurement.v_px) * (pixel.v - measurement.v_px);
+  }
+  return estimate.inliers > 0 ? std::sqrt(sum / estimate.inliers) : 0;
+}
+
 }  // namespace
 
 Pose updated(const Pose& camera_from_world, Vec3 rotation_rad, Vec3 translation_m) {
@@ -61,30 +98,26 @@ PoseEstimate estimate_pose(const std::vector<Correspondence>& correspondences, c
   PoseEstimate estimate;
   estimate.camera_from_world = camera_from_world_start;
   estimate.inlier.assign(correspondences.size(), 1);
-  double squared_px = 0;
+  if (correspondences.empty()) return estimate;
+  double squared_scale = kLargestScale * kLargestScale;
   for (int round = 0; round < kRounds; ++round) {
     for (int i = 0; i < kStepsPerRound; ++i)
-      if (step(correspondences, estimate.inlier, pinhole, round < kRounds - 1, estimate.camera_from_world) <
-          1e-7)
+      if (step(correspondences, estimate.inlier, pinhole, squared_scale, estimate.camera_from_world) < 1e-7)
         break;
+    const auto chi_squares = all_chi_squares(correspondences, pinhole, estimate.camera_from_world);
+    squared_scale = noise_scale_squared(correspondences, chi_squares);
     estimate.inliers = 0;
-    squared_px = 0;
     for (std::size_t i = 0; i < correspondences.size(); ++i) {
-      const Measurement& measurement = correspondences[i].measurement;
-      const Vec3 p = estimate.camera_from_world * correspondences[i].point;
-      const auto r =
-          p.z < kNearest_m ? std::array<double, 3>{1e3, 1e3, 1e3} : residual_of(measurement, pinhole, p);
-      estimate.inlier[i] = squared(r) <= chi_square_bound(measurement);
-      if (!estimate.inlier[i]) continue;
-      ++estimate.inliers;
-      squared_px += (r[0] * r[0] + r[1] * r[1]) / (measurement.pixel_weight * measurement.pixel_weight);
+      estimate.inlier[i] = chi_squares[i] <= squared_scale * chi_square_bound(correspondences[i].measurement);
+      estimate.inliers += estimate.inlier[i];
     }
     if (estimate.inliers < 3) break;
   }
   // Many products of rotations leave the group by rounding.
   estimate.camera_from_world =
       pose_from(quaternion_of(estimate.camera_from_world), estimate.camera_from_world.translation);
-  if (estimate.inliers > 0) estimate.residual_px = std::sqrt(squared_px / estimate.inliers);
+  estimate.noise_scale = std::sqrt(squared_scale);
+  estimate.residual_px = reprojection_error_px(correspondences, pinhole, estimate);
   return estimate;
 }
 

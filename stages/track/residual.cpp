@@ -2,9 +2,17 @@
 
 namespace sediment::track {
 
-Measurement measurement_of(const Feature& feature, const Pinhole& pinhole) {
-  return {feature.u_px, feature.v_px, feature.inverse_depth,
-          1.0 / (pinhole.pixel_sigma_px * kLevelScale[feature.octave]), 1.0 / pinhole.depth_sigma};
+Measurement measurement_of(const Feature& feature, const Pinhole& pinhole, double noise_scale) {
+  Measurement measurement;
+  measurement.u_px = feature.u_px;
+  measurement.v_px = feature.v_px;
+  measurement.inverse_depth = feature.inverse_depth;
+  measurement.pixel_weight = 1 / (noise_scale * pinhole.pixel_sigma_px * kLevelScale[feature.octave]);
+  measurement.depth_weight = 1 / (noise_scale * pinhole.depth_sigma);
+  measurement.u_rate = feature.u_rate;
+  measurement.v_rate = feature.v_rate;
+  measurement.depth_rate = feature.depth_rate;
+  return measurement;
 }
 
 std::array<double, 3> residual_of(const Measurement& measurement, const Pinhole& pinhole, Vec3 point) {

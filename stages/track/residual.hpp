@@ -9,12 +9,14 @@ namespace sediment::track {
 /// What a frame measured of a landmark.
 struct Measurement {
   double u_px = 0, v_px = 0;
-  double inverse_depth = 0;  ///< 0 = none: its row of the residual is 0
-  double pixel_weight = 1;   ///< 1 / standard deviation, 1/px
-  double depth_weight = 1;   ///< 1 / standard deviation, m
+  double inverse_depth = 0;                       ///< 0 = none: its row of the residual is 0
+  double pixel_weight = 1;                        ///< 1 / standard deviation, 1/px
+  double depth_weight = 1;                        ///< 1 / standard deviation, m
+  double u_rate = 0, v_rate = 0, depth_rate = 0;  ///< change per second of readout (u, v) and of depth lag
 };
 
-Measurement measurement_of(const Feature& feature, const Pinhole& pinhole);
+/// `noise_scale`: how much noisier the frame is than most.
+Measurement measurement_of(const Feature& feature, const Pinhole& pinhole, double noise_scale = 1);
 
 /// Residual of a landmark in units of standard deviations: u, v and inverse depth. The depth of a Kinect
 /// comes from a disparity, whose error does not depend on the distance; so the inverse depth is what has a

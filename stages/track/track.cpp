@@ -1,5 +1,6 @@
 #include "stages/track/track.hpp"
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
@@ -23,17 +24,41 @@ void require_forward_time(const Recording& recording) {
                                ") is not later than the one before (" + recording.stamps[i - 1] + ")");
 }
 
-Features features_of(const Recording& recording, const Parameters& parameters, std::size_t frame_idx) {
+double depth_delay_s(const Recording& recording, std::size_t frame_idx) {
+  return recording.depth_stamps_s.empty()
+             ? 0
+             : recording.depth_stamps_s[frame_idx] - recording.stamps_s[frame_idx];
+}
+
+// Features of a frame, found in its images.
+Features found_features(const Recording& recording, const Parameters& parameters, std::size_t frame_idx) {
   const Frame frame = recording.frame(frame_idx);
   const cv::Mat mask = recording.dynamic_mask ? recording.dynamic_mask(frame_idx) : cv::Mat();
   cv::Mat gray;
   cv::cvtColor(frame.color, gray, cv::COLOR_BGR2GRAY);
   return std::make_shared<const FrameFeatures>(
-      extract_features(gray, frame.depth, mask, recording.camera, parameters));
+      measured_features(find_features(gray, mask, recording.camera, parameters), frame.depth,
+                        recording.camera, {}, parameters));
 }
 
-// Features of coming frames are found while earlier ones are tracked, one by one and in order.
-void run_front_end(const Recording& recording, const Parameters& parameters,
+// What the first pass has learned about a frame.
+struct Hindsight {
+  std::vector<Features> features;
+  std::vector<Motion> motions;
+  SensorTiming timing;
+};
+
+Features corrected_features(const Recording& recording, const Parameters& parameters,
+                            const Hindsight& hindsight, std::size_t frame_idx) {
+  const Exposure exposure{hindsight.motions[frame_idx], hindsight.timing,
+                          depth_delay_s(recording, frame_idx)};
+  const cv::Mat depth = recording.depth ? recording.depth(frame_idx) : recording.frame(frame_idx).depth;
+  return std::make_shared<const FrameFeatures>(
+      measured_features(*hindsight.features[frame_idx], depth, recording.camera, exposure, parameters));
+}
+
+// Features of coming frames are made while earlier ones are tracked, one by one and in order.
+void run_front_end(const Recording& recording, const std::function<Features(std::size_t)>& features_of,
                    const std::function<void()>& advance, Tracker& tracker) {
   const std::size_t in_flight = 2 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + 2;
   std::size_t next = 0;
@@ -42,9 +67,7 @@ void run_front_end(const Recording& recording, const Parameters& parameters,
                                                           if (next == recording.stamps.size()) control.stop();
                                                           return next++;
                                                         });
-  const auto extract = tbb::make_filter<std::size_t, Features>(
-      tbb::filter_mode::parallel,
-      [&](std::size_t frame_idx) { return features_of(recording, parameters, frame_idx); });
+  const auto extract = tbb::make_filter<std::size_t, Features>(tbb::filter_mode::parallel, features_of);
   std::size_t tracked = 0;
   const auto follow =
       tbb::make_filter<Features, void>(tbb::filter_mode::serial_in_order, [&](Features features) {
@@ -52,6 +75,23 @@ void run_front_end(const Recording& recording, const Parameters& parameters,
         if (advance) advance();
       });
   tbb::parallel_pipeline(in_flight, read & extract & follow);
+}
+
+Hindsight learn(const Recording& recording, Tracker& tracker, const SensorTiming& timing) {
+  constexpr double kMaxGap_s = 0.11;
+  Hindsight hindsight;
+  hindsight.timing = timing;
+  std::vector<Pose> poses(tracker.frames().size());
+  std::vector<const Pose*> known(poses.size(), nullptr);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const TrackedFrame& frame = tracker.frames()[i];
+    hindsight.features.push_back(frame.features);
+    if (!frame.tracked) continue;
+    poses[i] = camera_from_world(frame, tracker.map()).inverse();
+    known[i] = &poses[i];
+  }
+  hindsight.motions = motions_of(recording.stamps_s, known, kMaxGap_s);
+  return hindsight;
 }
 
 Tracked collect(const Recording& recording, Tracker& tracker) {
@@ -77,17 +117,47 @@ Tracked collect(const Recording& recording, Tracker& tracker) {
   return result;
 }
 
+// Measures the features of the keyframes, or of all frames, again with what is known of the camera's motion.
+void measure_again(const Recording& recording, const Parameters& parameters, const SensorTiming& timing,
+                   bool keyframes_only, Tracker& tracker) {
+  const Hindsight hindsight = learn(recording, tracker, timing);
+  tbb::parallel_for(std::size_t{0}, tracker.frames().size(), [&](std::size_t i) {
+    TrackedFrame& frame = tracker.frames()[i];
+    if (frame.keyframe || !keyframes_only)
+      frame.features = corrected_features(recording, parameters, hindsight, i);
+  });
+  for (Keyframe& keyframe : tracker.map().keyframes)
+    keyframe.features = tracker.frames()[keyframe.frame_idx].features;
+}
+
 }  // namespace
 
 Tracked track(const Recording& recording, const Parameters& parameters,
               const std::function<void()>& advance) {
   require_forward_time(recording);
   const Pinhole pinhole = pinhole_of(recording.camera, parameters);
-  Tracker tracker(pinhole, parameters);
-  run_front_end(recording, parameters, advance, tracker);
-  if (tracker.map().keyframes.size() > 1) adjust_all(tracker.map(), pinhole);
-  refine_frames(tracker, pinhole);
-  return collect(recording, tracker);
+  auto tracker = std::make_unique<Tracker>(pinhole, parameters);
+  run_front_end(
+      recording, [&](std::size_t i) { return found_features(recording, parameters, i); }, advance, *tracker);
+  SensorTiming timing;
+  for (int pass = 1; pass <= parameters.passes && tracker->map().keyframes.size() > 1; ++pass) {
+    measure_again(recording, parameters, timing, true, *tracker);
+    timing = adjust_all(tracker->map(), pinhole, timing);
+    if (pass == parameters.passes) break;
+    const Hindsight hindsight = learn(recording, *tracker, timing);
+    tracker = std::make_unique<Tracker>(pinhole, parameters);
+    run_front_end(
+        recording, [&](std::size_t i) { return corrected_features(recording, parameters, hindsight, i); }, {},
+        *tracker);
+  }
+  if (tracker->map().keyframes.size() > 1) {
+    measure_again(recording, parameters, timing, false, *tracker);
+    adjust_all(tracker->map(), pinhole, timing);
+    refine_frames(*tracker, pinhole);
+  }
+  Tracked result = collect(recording, *tracker);
+  result.timing = timing;
+  return result;
 }
 
 double coverage(const std::vector<FrameTracking>& frames) {

@@ -8,6 +8,7 @@
 #include "pipeline/scene/frame.hpp"
 #include "pipeline/scene/trajectory.hpp"
 #include "stages/track/parameters.hpp"
+#include "stages/track/sensor_timing.hpp"
 
 namespace sediment::track {
 
@@ -16,7 +17,9 @@ struct Recording {
   Camera camera;
   std::vector<std::string> stamps;
   std::vector<double> stamps_s;
+  std::vector<double> depth_stamps_s;  ///< empty: those of colour
   std::function<Frame(std::size_t frame_idx)> frame;
+  std::function<cv::Mat(std::size_t frame_idx)> depth;         ///< unset: frame(i).depth
   std::function<cv::Mat(std::size_t frame_idx)> dynamic_mask;  ///< DynamicValue; may be unset
 };
 
@@ -25,6 +28,7 @@ struct Tracked {
   Trajectory poses;                   ///< of the frames that have one; the first one's camera is the world
   std::vector<FrameTracking> frames;  ///< one a frame of the recording
   std::size_t landmarks = 0;
+  SensorTiming timing;  ///< as found from the recording
 };
 
 /// Camera poses of a recording from its ORB features: front end, map, and, after the last frame, an

@@ -15,6 +15,8 @@ constexpr int kLeastToAccept = 20;   // inliers that make a pose
 constexpr int kLeastToRecover = 20;  // inliers without any guess of the pose
 constexpr int kLocalKeyframes = 30;
 constexpr double kLongestPrediction_s = 0.5;
+constexpr double kFarTurn_rad = 0.2, kFarMove_m = 0.15;  // from a keyframe: time for a new one
+constexpr double kFewPoints = 0.75;                      // of the landmarks of its reference keyframe
 
 }  // namespace
 
@@ -54,7 +56,7 @@ bool Tracker::start_map() {
   if (with_depth < kLeastToStart) return false;
   frame.tracked = frame.keyframe = true;
   frame.reference_idx =
-      add_keyframe(map_, static_cast<int>(frames_.size()) - 1, {}, frame.features, {}, pinhole_);
+      add_keyframe(map_, static_cast<int>(frames_.size()) - 1, {}, frame.features, {}, 1, pinhole_);
   frame.matches = frame.inliers = with_depth;
   last_tracked_ = static_cast<int>(frames_.size()) - 1;
   for (int i = 0; i < static_cast<int>(frame.features->size()); ++i)
@@ -180,8 +182,12 @@ bool Tracker::wants_keyframe(const Found& found) const {
   int reference_points = 0;
   for (const int point_id : reference.point_ids)
     reference_points += point_id >= 0 && map_.points[point_id].sightings.size() > 1;
+  const Pose from_reference = found.estimate.camera_from_world * reference.world_from_camera;
+  if (rotation_angle(from_reference) > kFarTurn_rad || norm(from_reference.translation) > kFarMove_m)
+    return true;
   const int since = static_cast<int>(frames_.size()) - 1 - map_.keyframes.back().frame_idx;
-  return since >= 20 || found.estimate.inliers < 0.75 * reference_points || found.estimate.inliers < 100;
+  return since >= 20 || found.estimate.inliers < kFewPoints * reference_points ||
+         found.estimate.inliers < 100;
 }
 
 void Tracker::accept(const Found& found) {
@@ -197,7 +203,7 @@ void Tracker::accept(const Found& found) {
   if (!wants_keyframe(found)) return;
   frame.keyframe = true;
   frame.reference_idx = add_keyframe(map_, last_tracked_, found.estimate.camera_from_world.inverse(),
-                                     frame.features, found.matches, pinhole_);
+                                     frame.features, found.matches, found.estimate.noise_scale, pinhole_);
   frame.camera_from_reference = {};
   last_matches_.clear();
   const auto& point_ids = map_.keyframes.back().point_ids;

@@ -32,7 +32,12 @@ inline std::vector<Correspondence> observe(const std::vector<Vec3>& points, cons
   for (const Vec3& point : points) {
     const Vec3 p = camera_from_world * point;
     const Pixel pixel = pinhole.project(p);
-    seen.push_back({point, {pixel.u, pixel.v, 1 / p.z, 1, 1 / pinhole.depth_sigma}});
+    Measurement measurement;
+    measurement.u_px = pixel.u;
+    measurement.v_px = pixel.v;
+    measurement.inverse_depth = 1 / p.z;
+    measurement.depth_weight = 1 / pinhole.depth_sigma;
+    seen.push_back({point, measurement});
   }
   return seen;
 }
