@@ -119,11 +119,9 @@ SensorTiming adjust_all(Map& map, const Pinhole& pinhole, const SensorTiming& ti
   const auto [timed_cost, timed] = adjusted(extract(map, keyframes, pinhole), false, true);
   const auto [cost, untimed] = adjusted(timed, false, false);
   const bool believed = timed_cost < (1 - kBelievedGain) * cost;
-         100 * (1 - timed_cost / cost), believed, timed.bundle.timing.readout_s,
-         timed.bundle.timing.depth_lag_s);
-         write_back(believed ? timed : untimed, map);
-         drop_outliers(believed ? timed : untimed, pinhole, map);
-         return (believed ? timed : untimed).bundle.timing;
+  write_back(believed ? timed : untimed, map);
+  drop_outliers(believed ? timed : untimed, pinhole, map);
+  return (believed ? timed : untimed).bundle.timing;
 }
 
 }  // namespace sediment::track
