@@ -49,7 +49,7 @@ full_for_the_runner() {
     grep -q 'No space left on device\|is full' log || { echo "with $free_kb kB free:"; cat log; return 1; }
     rm disk/filler
     sediment run pipeline.yaml >log 2>&1 || { cat log; return 1; }
-    sediment verify pipeline.yaml >log 2>&1 || { cat log; return 1; }
+    "$SEDIMENT_BIN/sediment" verify --store disk/store >log 2>&1 || { cat log; return 1; }
     [ "$(results)" = 4 ] || return 1
   done
 }
