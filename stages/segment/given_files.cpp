@@ -1,8 +1,6 @@
 #include "stages/segment/given_files.hpp"
 
 #include <algorithm>
-#include <opencv2/imgproc.hpp>
-#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -15,14 +13,6 @@ namespace sediment::segment {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The smallest box around the pixels; nothing if there are none.
-std::optional<ObjectMask> object_of(std::string class_name, double score, const cv::Mat& pixels) {
-  const cv::Rect window = cv::boundingRect(pixels);
-  if (window.empty()) return std::nullopt;
-  const std::array<double, 4> box{1.0 * window.x, 1.0 * window.y, 1.0 * window.br().x, 1.0 * window.br().y};
-  return ObjectMask{std::move(class_name), score, box, window, pixels(window).clone()};
-}
 
 class ArtifactFiles final : public GivenFiles {
  public:

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <opencv2/imgproc.hpp>
 
 namespace sediment::segment {
 namespace {
@@ -143,6 +143,13 @@ std::vector<ObjectMask> assemble(const Prediction& prediction, const std::vector
     if (cv::countNonZero(object.pixels) > 0) objects.push_back(std::move(object));
   }
   return objects;
+}
+
+std::optional<ObjectMask> object_of(std::string class_name, double score, const cv::Mat& pixels) {
+  const cv::Rect window = cv::boundingRect(pixels);
+  if (window.empty()) return std::nullopt;
+  const std::array<double, 4> box{1.0 * window.x, 1.0 * window.y, 1.0 * window.br().x, 1.0 * window.br().y};
+  return ObjectMask{std::move(class_name), score, box, window, pixels(window).clone()};
 }
 
 InstanceMask paint(std::vector<ObjectMask> objects, cv::Size image) {

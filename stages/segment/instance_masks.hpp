@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct ObjectMask {
 /// clipped to the image; detections without a pixel are left out.
 std::vector<ObjectMask> assemble(const Prediction& prediction, const std::vector<Detection>& detections,
                                  const Letterbox& letterbox, const std::vector<std::string>& class_names);
+
+/// The object made of the pixels of an image (CV_8UC1, not 0) with the tight box around them; nothing if
+/// there are none.
+std::optional<ObjectMask> object_of(std::string class_name, double score, const cv::Mat& pixels);
 
 /// One image of instance ids. Where objects overlap, the one with the higher score has the pixel (equal
 /// scores: the earlier one). Ids count from 1 in order of the scores; objects that are covered whole are left
