@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/contract/nearest_name.hpp"
 #include "pipeline/contract/parameter.hpp"
 
 namespace sediment::contract {
@@ -46,8 +47,5 @@ struct Description {
 Json to_json(const Description& description);
 /// Throws std::runtime_error if the JSON is not a description.
 Description description_from(const Json& json);
-
-/// Of `known` the name nearest to `name` by edit distance, empty if none is near: for "did you mean".
-std::string nearest_name(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace sediment::contract

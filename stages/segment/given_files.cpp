@@ -7,7 +7,7 @@
 #include "pipeline/artifacts/coco_file.hpp"
 #include "pipeline/artifacts/image_file.hpp"
 #include "pipeline/artifacts/masks.hpp"
-#include "stages/segment/instance_masks.hpp"
+#include "pipeline/artifacts/object_mask.hpp"
 
 namespace sediment::segment {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "pipeline/artifacts/image_file.hpp"
 #include "pipeline/artifacts/label_file.hpp"
-#include "pipeline/contract/description.hpp"
+#include "pipeline/contract/nearest_name.hpp"
 #include "stages/segment/given_files.hpp"
 
 namespace sediment::segment {

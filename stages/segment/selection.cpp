@@ -4,8 +4,8 @@
 #include <charconv>
 #include <limits>
 
-#include "pipeline/contract/description.hpp"
 #include "pipeline/contract/errors.hpp"
+#include "pipeline/contract/nearest_name.hpp"
 
 namespace sediment::segment {
 namespace {

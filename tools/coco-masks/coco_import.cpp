@@ -1,7 +1,7 @@
 #include "pipeline/artifacts/coco_file.hpp"
 #include "pipeline/artifacts/masks.hpp"
+#include "pipeline/artifacts/object_mask.hpp"
 #include "pipeline/contract/errors.hpp"
-#include "stages/segment/instance_masks.hpp"
 #include "tools/coco-masks/coco_conversion.hpp"
 
 namespace sediment::tools {
@@ -16,11 +16,11 @@ void import_coco(const fs::path& coco_file, const fs::path& masks) {
   fs::remove_all(partial);
   MasksWriter writer(partial);
   for (const CocoImage& image : coco.images) {
-    std::vector<segment::ObjectMask> objects;
+    std::vector<ObjectMask> objects;
     for (const CocoObject& object : image.objects)
-      if (auto mask = segment::object_of(object.category, object.score, pixels_of(object, image, coco)))
+      if (auto mask = object_of(object.category, object.score, pixels_of(object, image, coco)))
         objects.push_back(std::move(*mask));
-    writer.write(image_name(image.file_name), segment::paint(std::move(objects), image.size));
+    writer.write(image_name(image.file_name), paint(std::move(objects), image.size));
   }
   writer.finish();
   fs::remove(masks);
