@@ -4,7 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "stages/sor/spatial_order.hpp"
+#include "stages/sor/nearest_kernel.hpp"
+#include "stages/sor/position.hpp"
 
 namespace sediment::sor {
 
@@ -13,6 +14,8 @@ namespace sediment::sor {
 /// the cloud has no `k` others, the mean is over those there are; a single point gets 0. Coordinates must be
 /// finite. Distances are rounded as in pcl::StatisticalOutlierRemoval: squares in float, roots and sum in
 /// double, the mean to float.
-std::vector<float> mean_neighbor_distances(std::span<const Position> points, std::size_t k);
+/// Every kernel gives the same bits.
+std::vector<float> mean_neighbor_distances(std::span<const Position> points, std::size_t k,
+                                           const NearestKernel& kernel = *available_kernels().back());
 
 }  // namespace sediment::sor

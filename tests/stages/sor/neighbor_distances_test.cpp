@@ -52,6 +52,19 @@ TEST_CASE("mean neighbour distances are those of all pairs") {
   }
 }
 
+TEST_CASE("every kernel that this processor can run gives the same bits") {
+  for (const auto& [name, cloud] : test::awkward_clouds(5000, 6)) {
+    const std::vector<Position> points = positions_of(cloud);
+    for (const std::size_t k : {3u, 50u}) {
+      const auto plain = mean_neighbor_distances(points, k, *sor::available_kernels().front());
+      for (const sor::NearestKernel* kernel : sor::available_kernels()) {
+        INFO(name << ", k = " << k << ", " << kernel->name);
+        CHECK(mean_neighbor_distances(points, k, *kernel) == plain);
+      }
+    }
+  }
+}
+
 TEST_CASE("k beyond the size of the cloud means all the others") {
   const std::vector<Position> points{{0, 0, 0}, {1, 0, 0}, {3, 0, 0}};
   CHECK(mean_neighbor_distances(points, 1000) == std::vector<float>{2, 1.5f, 2.5f});
