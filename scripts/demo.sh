@@ -38,3 +38,35 @@ if [ "$(cat "$out/made" 2>/dev/null)" != "$made" ]; then
 fi
 
 "$root/scripts/run_tum.sh" --data "$scene" --masks "$scene/truth/instances" --out "$maps"
+
+# picture FILE WHAT ARGUMENT...: pictures are drawn again only if a result or the program that draws them changed.
+drawn=$(cat "$maps"/*/manifest.json "$bin/render" | sha256sum)
+fresh=false
+[ "$(cat "$pictures/made" 2>/dev/null)" != "$drawn" ] || fresh=true
+mkdir -p "$pictures"
+picture() {
+  local file=$pictures/$1 what=$2
+  shift 2
+  $fresh || "$bin/render" "$@" --out "$file"
+  printf '  %-18s %s\n' "$(basename "$file")" "$what"
+}
+inside=(--ground "$maps/project2d" --max-height 2.2)
+
+echo
+echo "Pictures in $pictures"
+picture masks.png "frames with their instances; what is dynamic is hatched" \
+  masks --sequence "$maps/sequence.yaml" --masks "$maps/segment" --dynamic "$maps/interaction-mask"
+picture cloud_top.png "the cloud from above, in the colours of its labels" \
+  cloud "$maps/voxel" --view top --color label "${inside[@]}"
+picture cloud.png "the cloud in the colours of the camera: nobody is left in it" \
+  cloud "$maps/voxel" --view oblique --color image "${inside[@]}"
+picture octree.png "the octree's occupied leaves" octree "$maps/octree" --view oblique --color label "${inside[@]}"
+picture grid.png "the navigation grid" grid "$maps/project2d"
+picture trajectory.png "the camera's path against the truth" \
+  trajectory "$maps/track" --truth "$scene/groundtruth.txt"
+echo "$drawn" >"$pictures/made"
+cat <<TEXT
+
+Run one stage, and what is behind it, with another parameter; the rest is kept:
+  scripts/run_tum.sh --data $scene --masks $scene/truth/instances --out $maps --set sor.neighbors=30
+TEXT

@@ -21,7 +21,7 @@ file stages/voxel/main.cpp "$(yes '//' | head -n 130)"
 file stages/voxel/voxel.hpp 'struct Voxel {};'
 file tools/render/main.cpp '#include "stages/sor/outliers.hpp"'
 file helpers/long.cpp "$(yes '//' | head -n 300)"
-file README.md "it lies in $(printf '/%s/' home)somebody"
+file README.md "it lies in $(printf '/%s/' home)somebody" '[a page](nowhere.md)'
 file build/compile_commands.json '"command": "c++ -O2 -march=native"'
 # A runner that loads OpenCV, and stages that call themselves something else.
 mkdir -p "$tree/build/bin"
@@ -34,5 +34,5 @@ cc -Wl,--no-as-needed "$tmp/empty.c" -lopencv_core -o "$tree/build/bin/sediment"
 SEDIMENT_BIN=$tree/build/bin run bash "$rules" "$tree"
 check "a tree that breaks every rule is refused" same "$code" 1
 check "each rule finds what breaks it" same "$(grep '^ok' <<<"$output")" ""
-check "there are rules" test "$(grep -c '^FAILED' <<<"$output")" -ge 18
+check "there are rules" test "$(grep -c '^FAILED' <<<"$output")" -ge 19
 finish

@@ -46,7 +46,7 @@ stages_include() {
   done
 }
 algorithms_know_flags() {
-  grep -nE '#include "pipeline/contract/(stage|command_line|parameter|description|manifest)' stages/*/*.[ch]pp | grep -v /main.cpp:
+  grep -nE '#include "pipeline/contract/(stage|command_line|parameter|manifest)' stages/*/*.[ch]pp | grep -v /main.cpp:
 }
 tools_include() { foreign_includes tools 'pipeline/(scene|artifacts|contract)|tools'; }
 
@@ -83,6 +83,15 @@ unlisted_stages() {
   done
 }
 
+dead_links() {
+  local page link
+  files .md | while read -r page; do
+    grep -oE '\]\([^)# ]+' "$page" | cut -c3- | grep -vE '^(https?|mailto):' | while read -r link; do
+      [ -e "$(dirname "$page")/$link" ] || echo "$page: $link does not exist"
+    done
+  done
+}
+
 check "scene stands on nothing of ours" nothing scene_includes
 check "sorting stands on nothing of ours" nothing sorting_includes
 check "artifacts stand on the scene alone" nothing artifacts_includes
@@ -95,6 +104,7 @@ check "tools stand on neither stages nor the runner" nothing tools_include
 check "a stage has a page and a main.cpp" nothing incomplete_stages
 check "a stage's executable has the name of its folder" nothing misnamed_stages
 check "the README lists every stage" nothing unlisted_stages
+check "every link between pages leads somewhere" nothing dead_links
 check "a stage's main.cpp is a declaration and a call" nothing long_mains
 check "no folder is a junk drawer" nothing junk_drawers
 check "no file has more than 250 lines" nothing long_files

@@ -2,7 +2,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "pipeline/artifacts/image_file.hpp"
+#include "tools/render/picture_file.hpp"
 #include "tools/render/pictures.hpp"
 
 using namespace sediment;
@@ -11,7 +11,7 @@ using namespace sediment::render;
 namespace {
 
 constexpr const char* kAbout =
-    "Pictures (PNG) of what the pipeline made, without a display.\n\n"
+    "Pictures of what the pipeline made, without a display.\n\n"
     "  render cloud OUT/voxel --ground OUT/project2d --color label --out cloud.png\n"
     "  render cloud OUT/voxel --view top --max-height 2 --ground OUT/project2d --out top.png\n"
     "  render cloud OUT/fuse --view pose --pose \"0 0 -1  0 0 0 1\" --out from_behind.png\n"
@@ -152,7 +152,8 @@ cv::Mat picture_of(CLI::App& app, int argc, char** argv, Call& call) {
                          "upward direction, \"x y z\" [0 0 1 with a truth, else 0 -1 0]");
   trajectory->add_option("--title", call.trajectory.title, "text in the upper left corner");
   for (CLI::App* sub : {cloud, octree, grid, masks, trajectory})
-    sub->add_option("--out", call.out, "the PNG file to write")->required();
+    sub->add_option("--out", call.out, "the picture to write: .png, or .jpg where it should be small")
+        ->required();
   app.require_subcommand(1);
 
   app.parse(argc, argv);
@@ -171,7 +172,7 @@ int main(int argc, char** argv) {
   Call call;
   try {
     const cv::Mat picture = picture_of(app, argc, argv, call);
-    write_png(call.out, picture);
+    write_picture(call.out, picture);
     std::cout << call.out << ": " << picture.cols << " x " << picture.rows << '\n';
     return 0;
   } catch (const CLI::ParseError& error) {

@@ -155,3 +155,18 @@ TEST_CASE("an empty cloud is an empty sheet") {
   write_cloud(folder.path(), {}, default_labels(), PcdEncoding::binary);
   CHECK(run("cloud " + folder.path().string() + " --out " + (folder / "y.png").string()) == 0);
 }
+
+TEST_CASE("a picture is what its file's extension says") {
+  const test::TemporaryFolder folder;
+  write_cloud(folder.path(), {}, default_labels(), PcdEncoding::binary);
+  const std::string call = "cloud " + folder.path().string() + " --size 320x240 --out ";
+  REQUIRE(run(call + (folder / "y.jpg").string()) == 0);
+  REQUIRE(run(call + (folder / "y.png").string()) == 0);
+  std::string jpeg(3, ' '), png(4, ' ');
+  std::ifstream(folder / "y.jpg", std::ios::binary).read(jpeg.data(), 3);
+  std::ifstream(folder / "y.png", std::ios::binary).read(png.data(), 4);
+  CHECK(jpeg == "\xff\xd8\xff");
+  CHECK(png == "\x89PNG");
+  CHECK(run(call + (folder / "y.bmp").string()) == 1);
+  CHECK(run(call + (folder / "none" / "y.png").string()) == 1);
+}
