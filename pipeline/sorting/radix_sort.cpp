@@ -3,23 +3,40 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <span>
 #include <stdexcept>
 
 namespace sediment {
 namespace {
 
-constexpr int kDigitBits = 8;  // 256 open write streams: more would not fit the first-level cache and the TLB
-constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+/// More items are sorted by 8 bits at a time: 256 open write streams fit the first-level cache and the TLB.
+/// Fewer stay in the second-level cache anyway, and longer digits save passes.
+constexpr std::size_t kManyItems = std::size_t{1} << 16;
 constexpr std::size_t kLeastBlock = std::size_t{1} << 15;
 constexpr std::size_t kMostBlocks = 64;
 
-using Histogram = std::array<std::size_t, kDigits>;
+using Histogram = std::vector<std::size_t>;
 
-template <class Key>
-std::size_t digit_of(Key key, int shift) {
-  return static_cast<std::size_t>(key >> shift) & (kDigits - 1);
+/// The bits that one pass sorts by.
+struct Digit {
+  int shift, bits;
+
+  std::size_t values() const { return std::size_t{1} << bits; }
+  template <class Key>
+  std::size_t of(Key key) const {
+    return static_cast<std::size_t>(key >> shift) & (values() - 1);
+  }
+};
+
+/// Digits of about equal length, the lowest first.
+std::vector<Digit> digits_of(int key_bits, std::size_t items) {
+  const int longest = items > kManyItems ? 8 : 11, passes = (key_bits + longest - 1) / longest;
+  std::vector<Digit> digits;
+  for (int pass = 0, shift = 0; pass < passes; ++pass) {
+    digits.push_back({shift, (key_bits - shift + passes - pass - 1) / (passes - pass)});
+    shift += digits.back().bits;
+  }
+  return digits;
 }
 
 /// The items split into blocks whose number depends on nothing but how many there are.
@@ -31,13 +48,13 @@ struct Blocks {
 };
 
 template <class Key>
-std::vector<Histogram> histograms_of(std::span<const Key> keys, const Blocks& blocks, int shift) {
+std::vector<Histogram> histograms_of(std::span<const Key> keys, const Blocks& blocks, Digit digit) {
   std::vector<Histogram> histograms(blocks.count);
   tbb::parallel_for(std::size_t{0}, blocks.count, [&](std::size_t block) {
     Histogram& histogram = histograms[block];
-    histogram.fill(0);
+    histogram.assign(digit.values(), 0);
     for (std::size_t i = blocks.begin(block); i < blocks.begin(block + 1); ++i)
-      ++histogram[digit_of(keys[i], shift)];
+      ++histogram[digit.of(keys[i])];
   });
   return histograms;
 }
@@ -45,7 +62,7 @@ std::vector<Histogram> histograms_of(std::span<const Key> keys, const Blocks& bl
 /// Turns counts into the place of the first item of each digit and block. False if all have the same digit.
 bool counts_to_places(std::vector<Histogram>& histograms, std::size_t item_count) {
   std::size_t place = 0;
-  for (std::size_t digit = 0; digit < kDigits; ++digit) {
+  for (std::size_t digit = 0; digit < histograms[0].size(); ++digit) {
     const std::size_t before = place;
     for (Histogram& histogram : histograms) {
       const std::size_t count = histogram[digit];
@@ -64,13 +81,13 @@ void sort_digits(std::vector<Key>& keys, std::vector<std::uint32_t>& values, int
   const Blocks blocks(keys.size());
   std::vector<Key> next_keys(keys.size());
   std::vector<std::uint32_t> next_values(keys.size());
-  for (int shift = 0; shift < key_bits; shift += kDigitBits) {
-    std::vector<Histogram> places = histograms_of<Key>(keys, blocks, shift);
+  for (const Digit digit : digits_of(key_bits, keys.size())) {
+    std::vector<Histogram> places = histograms_of<Key>(keys, blocks, digit);
     if (!counts_to_places(places, keys.size())) continue;
     tbb::parallel_for(std::size_t{0}, blocks.count, [&](std::size_t block) {
       Histogram& place = places[block];
       for (std::size_t i = blocks.begin(block); i < blocks.begin(block + 1); ++i) {
-        const std::size_t to = place[digit_of(keys[i], shift)]++;
+        const std::size_t to = place[digit.of(keys[i])]++;
         next_keys[to] = keys[i];
         next_values[to] = values[i];
       }

@@ -24,7 +24,7 @@ struct Statistics {
 /// - label: the one most of its points have (kUnlabelled counts like any other), the smallest id if several
 /// do;
 /// - instance: the one most points of that label have, the smallest id if several do.
-/// Throws std::runtime_error if the voxels along the three axes need more than 64 bits to number.
+/// Throws std::runtime_error if the voxels along the three axes need more than 63 bits to number.
 LabelledCloud filter(const LabelledCloud& cloud, const Parameters& parameters, Statistics& statistics);
 
 }  // namespace sediment::voxel

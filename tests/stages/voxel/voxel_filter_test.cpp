@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 
 using namespace sediment;
@@ -100,6 +101,20 @@ TEST_CASE("the instance is the most frequent one among the points of the winning
   CHECK(filtered(cloud, 1)[0].label == 2);
   CHECK(filtered(cloud, 1)[0].instance == 5);
   CHECK(filtered({labelled(1, 8), labelled(1, 3)}, 1)[0].instance == 3);
+}
+
+TEST_CASE("votes among many labels are counted right") {
+  std::mt19937 random(4);
+  LabelledCloud cloud;
+  std::map<std::uint32_t, int> counts;
+  for (int i = 0; i < 500; ++i) {
+    cloud.push_back(labelled(random() % 40, i % 2));
+    ++counts[cloud.back().label];
+  }
+  const auto most =
+      std::max_element(counts.begin(), counts.end(), [](auto& a, auto& b) { return a.second < b.second; });
+  CHECK(filtered(cloud, 1)[0].label ==
+        most->first);  // the map is in order: the first of equal ones is the smallest
 }
 
 TEST_CASE("voxels begin at whole multiples of the leaf, below zero too") {
