@@ -75,9 +75,9 @@ Rgb Lighting::on_face(int fixed_idx, int face, float u_m, float v_m) const {
          fv * ((1 - fu) * at(bottom, left) + fu * at(bottom, right));
 }
 
-Rgb Lighting::in_air(Vec3 point, Vec3 normal) const {
+LightCube Lighting::in_air(Vec3 point) const {
   const Vec3 p = (point - low_) / probe_spacing_m_ - Vec3{0.5, 0.5, 0.5};
-  const double coordinate[3] = {p.x, p.y, p.z}, n[3] = {normal.x, normal.y, normal.z};
+  const double coordinate[3] = {p.x, p.y, p.z};
   int cell[3];
   float fraction[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -86,7 +86,7 @@ Rgb Lighting::in_air(Vec3 point, Vec3 normal) const {
     cell[axis] = static_cast<int>(bounded);
     fraction[axis] = static_cast<float>(bounded - cell[axis]);
   }
-  Rgb sum;
+  LightCube sum{};
   for (int corner = 0; corner < 8; ++corner) {
     float weight = 1;
     int index[3];
@@ -95,13 +95,20 @@ Rgb Lighting::in_air(Vec3 point, Vec3 normal) const {
       index[axis] = cell[axis] + high;
       weight *= high ? fraction[axis] : 1 - fraction[axis];
     }
-    const Probe& probe =
-        probes_[(static_cast<std::size_t>(index[2]) * probes_across_[1] + index[1]) * probes_across_[0] +
-                index[0]];
-    for (int axis = 0; axis < 3; ++axis)
-      sum = sum + weight * static_cast<float>(n[axis] * n[axis]) *
-                      probe[static_cast<std::size_t>(2 * axis + (n[axis] > 0))];
+    const auto row = static_cast<std::size_t>(index[2]) * static_cast<std::size_t>(probes_across_[1]) +
+                     static_cast<std::size_t>(index[1]);
+    const LightCube& probe =
+        probes_[row * static_cast<std::size_t>(probes_across_[0]) + static_cast<std::size_t>(index[0])];
+    for (std::size_t side = 0; side < 6; ++side) sum[side] = sum[side] + weight * probe[side];
   }
+  return sum;
+}
+
+Rgb light_from(const LightCube& cube, Vec3 normal) {
+  const double n[3] = {normal.x, normal.y, normal.z};
+  Rgb sum;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    sum = sum + static_cast<float>(n[axis] * n[axis]) * cube[2 * axis + (n[axis] > 0)];
   return sum;
 }
 

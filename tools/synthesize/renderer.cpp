@@ -21,13 +21,12 @@ cv::Vec3b pixel_of(const Rgb& c) {
 }
 
 /// Casts at the candidates (nearest first) until the rest is behind everything that was hit.
-void cast_all(const std::vector<int>& candidates, const std::vector<Target>& targets,
-              const std::vector<Reach>& reaches, RayTile& tile) {
+void cast_all(const std::vector<int>& candidates, const std::vector<SolidView>& solids, RayTile& tile) {
   float farthest = kFar;
   for (const int solid_idx : candidates) {
-    const auto i = static_cast<std::size_t>(solid_idx);
-    if (reaches[i].nearest_m > farthest) break;
-    cast(targets[i], solid_idx, tile);
+    const SolidView& solid = solids[static_cast<std::size_t>(solid_idx)];
+    if (solid.reach.nearest_m > farthest) break;
+    cast(solid.target, solid_idx, tile);
     farthest = *std::max_element(tile.depth_m.begin(), tile.depth_m.end());
   }
 }
@@ -37,8 +36,6 @@ void cast_all(const std::vector<int>& candidates, const std::vector<Target>& tar
 /// What one rendering works on.
 struct Renderer::Work {
   View view;
-  std::vector<Target> targets;
-  std::vector<Reach> reaches;
   std::vector<int> nearest_first;            ///< indices of solids that may be seen at all
   std::vector<std::vector<int>> candidates;  ///< of a tile, nearest first
   Rendering image;
@@ -70,7 +67,7 @@ cv::Rect Renderer::area_of(int tile_idx) const {
 void Renderer::find_hits(Work& work, int tile_idx) const {
   auto& candidates = work.candidates[static_cast<std::size_t>(tile_idx)];
   for (const int i : work.nearest_first)
-    if (work.reaches[static_cast<std::size_t>(i)].rays.meets(
+    if (work.view.solids[static_cast<std::size_t>(i)].reach.rays.meets(
             tile_bounds_[static_cast<std::size_t>(tile_idx)]))
       candidates.push_back(i);
   const cv::Rect area = area_of(tile_idx);
@@ -84,7 +81,7 @@ void Renderer::find_hits(Work& work, int tile_idx) const {
     const Ray& ray = rays_[static_cast<std::size_t>(v) * camera_.width + u];
     tile.x[i] = ray.x, tile.y[i] = ray.y;
   }
-  cast_all(candidates, work.targets, work.reaches, tile);
+  cast_all(candidates, work.view.solids, tile);
   for (int y = 0; y < area.height; ++y)
     for (int x = 0; x < area.width; ++x) {
       const int i = y * kTile + x;
@@ -142,7 +139,7 @@ void Renderer::smooth_edges(Work& work, int tile_idx) const {
           camera_.undistort({pixel % camera_.width + offset[0], pixel / camera_.width + offset[1]});
       tile.x[i] = static_cast<float>(ray.u), tile.y[i] = static_cast<float>(ray.v);
     }
-    cast_all(work.candidates[static_cast<std::size_t>(tile_idx)], work.targets, work.reaches, tile);
+    cast_all(work.candidates[static_cast<std::size_t>(tile_idx)], work.view.solids, tile);
     for (int i = 0; i < count; ++i) {
       Rgb sum;
       for (int s = kSamples * i; s < kSamples * (i + 1); ++s)
@@ -158,21 +155,14 @@ void Renderer::smooth_edges(Work& work, int tile_idx) const {
 Rendering Renderer::render(const Scene& scene, const Lighting& lighting, const Moment& moment,
                            const Pose& world_from_camera) const {
   const cv::Size size(camera_.width, camera_.height);
-  Work work{{scene, lighting, moment, world_from_camera, {}, 1 / camera_.fx}, {}, {}, {}, {}, {}};
+  Work work{view_of(scene, lighting, moment, world_from_camera, 1 / camera_.fx), {}, {}, {}};
   work.image = {cv::Mat(size, CV_8UC3, cv::Scalar::all(0)), cv::Mat(size, CV_32FC1), cv::Mat(size, CV_32SC1),
                 cv::Mat(size, CV_8UC1, cv::Scalar(0)), cv::Mat(size, CV_32FC2, cv::Scalar::all(0))};
-  const Pose camera_from_world = world_from_camera.inverse();
-  for (const PlacedSolid& placed : moment.solids) {
-    const Pose camera_from_solid = camera_from_world * placed.world_from_solid;
-    work.view.camera_from_solid.push_back(camera_from_solid);
-    work.targets.push_back(target_of(*placed.solid, camera_from_solid));
-    work.reaches.push_back(reach_of(*placed.solid, camera_from_solid));
-  }
-  work.nearest_first.resize(work.targets.size());
+  work.nearest_first.resize(work.view.solids.size());
   std::iota(work.nearest_first.begin(), work.nearest_first.end(), 0);
   std::stable_sort(work.nearest_first.begin(), work.nearest_first.end(), [&](int a, int b) {
-    return work.reaches[static_cast<std::size_t>(a)].nearest_m <
-           work.reaches[static_cast<std::size_t>(b)].nearest_m;
+    const auto nearest = [&](int i) { return work.view.solids[static_cast<std::size_t>(i)].reach.nearest_m; };
+    return nearest(a) < nearest(b);
   });
   const int tiles = tiles_across_ * tiles_down_;
   work.candidates.resize(static_cast<std::size_t>(tiles));

@@ -1,27 +1,62 @@
 #include "tools/synthesize/shading.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sediment::synthetic {
 namespace {
 
+using Float3 = std::array<float, 3>;
+
+Float3 float3(Vec3 v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+float dot(const Float3& a, const Float3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 Vec3 rotate_back(const Pose& pose, Vec3 v) {
   const auto& r = pose.rotation;
   return {r[0] * v.x + r[3] * v.y + r[6] * v.z, r[1] * v.x + r[4] * v.y + r[7] * v.z,
           r[2] * v.x + r[5] * v.y + r[8] * v.z};
 }
 
-// Change of the ray's hit on the plane with `normal` (camera frame) per pixel along one image axis.
-Vec3 hit_change(Vec3 ray, double depth_m, Vec3 normal, double along, Vec3 axis, double pixel_angle) {
+FaceView face_view(const Solid& solid, int face, const Pose& camera_from_solid) {
+  const Vec3 corner = point_on(solid, face, 0, 0);
+  const FaceRange range = face_range(solid, face);
+  const SurfacePoint middle =
+      surface_at(solid, point_on(solid, face, range.u_m / 2, (range.v_low_m + range.v_high_m) / 2));
+  FaceView view{float3(camera_from_solid.rotate(middle.normal)),
+                float3(camera_from_solid.rotate(middle.u_axis)),
+                float3(camera_from_solid.rotate(middle.v_axis)), 0, 0};
+  const Float3 origin = float3(camera_from_solid * corner);
+  view.u_shift = -dot(origin, view.u_axis), view.v_shift = -dot(origin, view.v_axis);
+  return view;
+}
+
+/// How far a pixel reaches on a plane: with the hit t * ray on the plane n, dt/dx = -t n.x / (n ray).
+Footprint footprint_of(const FaceView& f, const Float3& ray, float depth_m, float pixel_angle) {
   // Seen edge-on the footprint has no bound: limited to 20 : 1.
-  const double facing = std::min(dot(normal, ray), -0.05);
-  return depth_m * pixel_angle * (axis - (along / facing) * ray);
+  const float slope = 1 / std::min(dot(f.normal, ray), -0.05f), step = depth_m * pixel_angle;
+  const float along_u = slope * dot(ray, f.u_axis), along_v = slope * dot(ray, f.v_axis);
+  return {step * (f.u_axis[0] - f.normal[0] * along_u), step * (f.v_axis[0] - f.normal[0] * along_v),
+          step * (f.u_axis[1] - f.normal[1] * along_u), step * (f.v_axis[1] - f.normal[1] * along_v)};
+}
+
+/// The face of a unit box that a ray hits: that of the coordinate that is largest there.
+int face_hit(const Target& t, const Float3& ray, float depth_m) {
+  int axis = 0;
+  float largest = -1, value = 0;
+  for (int i = 0; i < 3; ++i) {
+    const float p = t.origin[i] +
+                    depth_m * (t.linear[3 * i] * ray[0] + t.linear[3 * i + 1] * ray[1] + t.linear[3 * i + 2]);
+    if (std::fabs(p) > largest) axis = i, largest = std::fabs(p), value = p;
+  }
+  return 2 * axis + (value > 0);
 }
 
 // What moves hides the lamps from what is below it: a soft round shadow, at its strongest near its feet.
-float open_sky(const Moment& moment, Vec3 point, double up) {
+float open_sky(const Moment& moment, Vec3 point) {
   double open = 1;
-  if (up < 0.3) return 1;
   for (const SoftShadow& s : moment.shadows) {
     const double dx = point.x - s.x, dy = point.y - s.y,
                  far2 = (dx * dx + dy * dy) / (s.radius_m * s.radius_m);
@@ -32,31 +67,79 @@ float open_sky(const Moment& moment, Vec3 point, double up) {
   return static_cast<float>(open);
 }
 
+/// Where a hit is on its solid.
+struct Hit {
+  int face;
+  float u_m, v_m;
+  Footprint footprint;
+  Vec3 normal;  ///< world frame
+};
+
+Hit hit_on_box(const View& view, const SolidView& solid, const Float3& ray, float depth_m) {
+  const int face = face_hit(solid.target, ray, depth_m);
+  const FaceView& f = solid.faces[static_cast<std::size_t>(face)];
+  // Column of the rotation: where the face's axis points in the world.
+  const auto& r = solid.placed->world_from_solid.rotation;
+  const auto axis = static_cast<std::size_t>(face / 2);
+  const double sign = face % 2 ? 1 : -1;
+  return {face,
+          depth_m * dot(ray, f.u_axis) + f.u_shift,
+          depth_m * dot(ray, f.v_axis) + f.v_shift,
+          footprint_of(f, ray, depth_m, view.pixel_angle),
+          {sign * r[axis], sign * r[axis + 3], sign * r[axis + 6]}};
+}
+
+Hit hit_on_round(const View& view, const SolidView& solid, const Float3& ray, float depth_m) {
+  const Pose& frame = solid.camera_from_solid;
+  const Vec3 point = double(depth_m) * Vec3{ray[0], ray[1], 1};
+  const SurfacePoint at = surface_at(*solid.placed->solid, rotate_back(frame, point - frame.translation));
+  const FaceView tangent{float3(frame.rotate(at.normal)), float3(frame.rotate(at.u_axis)),
+                         float3(frame.rotate(at.v_axis)), 0, 0};
+  return {at.face, at.u_m, at.v_m, footprint_of(tangent, ray, depth_m, view.pixel_angle),
+          solid.placed->world_from_solid.rotate(at.normal)};
+}
+
 }  // namespace
 
-Shade shade(const View& view, int solid_idx, double x, double y, double depth_m) {
-  const PlacedSolid& placed = view.moment.solids[static_cast<std::size_t>(solid_idx)];
-  const Vec3 ray{x, y, 1};
-  const Pose& frame = view.camera_from_solid[static_cast<std::size_t>(solid_idx)];
-  const SurfacePoint at = surface_at(*placed.solid, rotate_back(frame, depth_m * ray - frame.translation));
-  const Vec3 normal = frame.rotate(at.normal), u_axis = frame.rotate(at.u_axis),
-             v_axis = frame.rotate(at.v_axis);
-  const Vec3 right = hit_change(ray, depth_m, normal, normal.x, {1, 0, 0}, view.pixel_angle);
-  const Vec3 down = hit_change(ray, depth_m, normal, normal.y, {0, 1, 0}, view.pixel_angle);
-  const Footprint footprint{static_cast<float>(dot(right, u_axis)), static_cast<float>(dot(right, v_axis)),
-                            static_cast<float>(dot(down, u_axis)), static_cast<float>(dot(down, v_axis))};
-  const Material& material =
-      view.scene
-          .materials[static_cast<std::size_t>(placed.solid->materials[static_cast<std::size_t>(at.face)])];
+View view_of(const Scene& scene, const Lighting& lighting, const Moment& moment,
+             const Pose& world_from_camera, double pixel_angle) {
+  View view{scene, lighting, moment, world_from_camera, static_cast<float>(pixel_angle), {}};
+  const Pose camera_from_world = world_from_camera.inverse();
+  view.solids.reserve(moment.solids.size());
+  for (const PlacedSolid& placed : moment.solids) {
+    const Pose camera_from_solid = camera_from_world * placed.world_from_solid;
+    const Solid& solid = *placed.solid;
+    SolidView seen{&placed,
+                   camera_from_solid,
+                   target_of(solid, camera_from_solid),
+                   reach_of(solid, camera_from_solid),
+                   {},
+                   {}};
+    if (solid.shape == Shape::box)
+      for (int face = 0; face < kFaces; ++face)
+        seen.faces[static_cast<std::size_t>(face)] = face_view(solid, face, camera_from_solid);
+    if (placed.fixed_idx < 0) seen.air = lighting.in_air(placed.world_from_solid.translation);
+    view.solids.push_back(seen);
+  }
+  return view;
+}
+
+Shade shade(const View& view, int solid_idx, float x, float y, float depth_m) {
+  const SolidView& solid = view.solids[static_cast<std::size_t>(solid_idx)];
+  const Float3 ray{x, y, 1};
+  const bool flat = solid.target.shape == Shape::box;
+  const Hit hit = flat ? hit_on_box(view, solid, ray, depth_m) : hit_on_round(view, solid, ray, depth_m);
+  const int material_idx = solid.placed->solid->materials[static_cast<std::size_t>(hit.face)];
+  const Material& material = view.scene.materials[static_cast<std::size_t>(material_idx)];
   const Rgb paint = material.tint * view.scene.textures[static_cast<std::size_t>(material.texture)].sample(
-                                        at.u_m, at.v_m, footprint);
-  const Vec3 world = view.world_from_camera * (depth_m * ray),
-             outward = placed.world_from_solid.rotate(at.normal);
-  const bool fixed = placed.fixed_idx >= 0;
-  const Rgb light = fixed ? view.lighting.on_face(placed.fixed_idx, at.face, at.u_m, at.v_m)
-                          : view.lighting.in_air(world, outward);
-  const Rgb lit = open_sky(view.moment, world, outward.z) * paint * light;
-  return {material.glow > 0 ? blend(lit, paint, material.glow) : lit, at.face, at.u_m, at.v_m};
+                                        hit.u_m, hit.v_m, hit.footprint);
+  Rgb light = solid.placed->fixed_idx >= 0
+                  ? view.lighting.on_face(solid.placed->fixed_idx, hit.face, hit.u_m, hit.v_m)
+                  : light_from(solid.air, hit.normal);
+  if (hit.normal.z > 0.3)
+    light = open_sky(view.moment, view.world_from_camera * (double(depth_m) * Vec3{x, y, 1})) * light;
+  const Rgb lit = paint * light;
+  return {material.glow > 0 ? blend(lit, paint, material.glow) : lit, hit.face, hit.u_m, hit.v_m};
 }
 
 }  // namespace sediment::synthetic
