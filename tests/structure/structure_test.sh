@@ -46,7 +46,7 @@ stages_include() {
   done
 }
 algorithms_know_flags() {
-  grep -nE '#include "pipeline/contract/(stage|command_line|parameter|manifest)' stages/*/*.[ch]pp | grep -v /main.cpp:
+  grep -nE '#include "pipeline/contract/(stage|command_line|parameter|description|manifest)' stages/*/*.[ch]pp | grep -v /main.cpp:
 }
 tools_include() { foreign_includes tools 'pipeline/(scene|artifacts|contract)|tools'; }
 
