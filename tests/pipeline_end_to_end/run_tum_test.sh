@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # scripts/run_tum.sh as a user calls it: own folder, own masks, own poses, blanks in every path, from anywhere.
+# usage: run_tum_test.sh FLAKY_HTTP_SERVER
 # shellcheck source=tests/pipeline_end_to_end/small_scene.sh
 source "$(dirname "$0")/small_scene.sh"
 run_tum=$root/scripts/run_tum.sh
@@ -29,6 +30,18 @@ run "$run_tum" --data "$scene" --masks "$masks" --poses "$scene/groundtruth.txt"
 check "it takes poses of the user's own" same "$code" 0
 check "and keeps what they do not touch" grep -qE 'segment +kept' <<<"$output"
 check "and uses them: poses of the truth have no error" grep -qE 'ATE +24( +0\.000000){6}' <<<"$output"
+
+# A sequence of the benchmark, from a server that breaks off after every 600 kB.
+mkdir -p "$tmp/site/freiburg3"
+tar -czf "$tmp/site/freiburg3/rgbd_dataset_freiburg3_walking_xyz.tgz" -C "$tmp" \
+  --transform 's,^my scene,rgbd_dataset_freiburg3_walking_xyz,' --exclude truth "my scene"
+"$1" "$tmp/site" 600000 >"$tmp/requests" &
+await "$tmp/requests"
+SEDIMENT_TUM_URL=http://127.0.0.1:$(head -n 1 "$tmp/requests") SEDIMENT_DATA="$tmp/down loads" \
+  run "$run_tum" fr3/w/xyz --masks "$masks" --out "my maps"
+check "it downloads a sequence of the benchmark by its name and maps it" same "$code" 0
+check "in pieces, since the server breaks off" test "$(wc -l <"$tmp/requests")" -gt 2
+check "the same frames at another place are nothing new" grep -qE 'track +kept' <<<"$output"
 
 # camera TEXT: a folder with that camera.txt and nothing of a sequence but the lists of none.
 camera() { rm -rf "$tmp/c"; mkdir "$tmp/c"; touch "$tmp/c/rgb.txt" "$tmp/c/depth.txt"; printf '%s' "$1" >"$tmp/c/camera.txt"; }

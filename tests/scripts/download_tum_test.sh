@@ -17,7 +17,7 @@ bytes=$(stat -c %s "$tmp/site/freiburg1/$name.tgz")
 # serve LOG CUT_BYTES [FLAG]: starts a server and names it in SEDIMENT_TUM_URL.
 serve() {
   "$server" "$tmp/site" "${@:2}" >"$tmp/$1" &
-  until [ -s "$tmp/$1" ]; do sleep 0.05; done
+  await "$tmp/$1"
   export SEDIMENT_TUM_URL
   SEDIMENT_TUM_URL=http://127.0.0.1:$(head -n 1 "$tmp/$1")
 }

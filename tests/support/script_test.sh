@@ -43,5 +43,16 @@ refuses() {
 says() { grep -qF -- "$1" <<<"$output"; }
 same() { [ "$1" = "$2" ] || { echo "expected \"$2\", found \"$1\""; return 1; }; }
 
+# await FILE: waits until the file has content, ten seconds at most.
+await() {
+  local tries
+  for tries in $(seq 200); do
+    [ ! -s "$1" ] || return 0
+    sleep 0.05
+  done
+  echo "FAILED: $1 stays empty"
+  exit 1
+}
+
 # The last line of each test.
 finish() { [ "$failures" = 0 ] || { echo "$failures checks failed"; exit 1; }; }
