@@ -1,6 +1,7 @@
 #include "stages/segment/detections.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace sediment::segment {
@@ -32,7 +33,8 @@ std::vector<Detection> candidates(const cv::Mat& anchors, const Selection& selec
   for (std::size_t i = 0; i < count; ++i) {
     if (!(best[i] > selection.confidence[static_cast<std::size_t>(class_idx[i])])) continue;
     const auto anchor_idx = static_cast<int>(i);
-    found.push_back({class_idx[i], best[i], box_of(anchors, anchor_idx), anchor_idx});
+    const Box box = box_of(anchors, anchor_idx);
+    if (std::isfinite(box.area())) found.push_back({class_idx[i], best[i], box, anchor_idx});
   }
   return found;
 }

@@ -32,7 +32,8 @@ struct Selection {
 
 /// Ultralytics' non_max_suppression: an anchor stands for its best class; those above the class's confidence
 /// in order of their scores, of which one is dropped if it overlaps a kept one of its class by more than
-/// `iou`; the first max_detections. Best first; equal scores in order of the anchors.
+/// `iou`; the first max_detections. Boxes that are not finite are no detections. Best first; equal scores in
+/// order of the anchors.
 std::vector<Detection> detect(const Prediction& prediction, const Selection& selection);
 
 }  // namespace sediment::segment

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <opencv2/imgproc.hpp>
 
 namespace sediment::segment {
 namespace {
@@ -43,7 +41,7 @@ Box to_image(const Box& box, const Letterbox& letterbox) {
 cv::Rect pixels_in(const Box& box, const Letterbox& letterbox) {
   const auto first = [](float side, int border, int scaled, int image) {
     const double in_image = (std::nearbyint(side) - border) * image / scaled;
-    return std::clamp(static_cast<int>(std::ceil(in_image - 0.5)), 0, image);
+    return static_cast<int>(std::clamp(std::ceil(in_image - 0.5), 0.0, static_cast<double>(image)));
   };
   const auto column = [&](float side) {
     return first(side, letterbox.left, letterbox.scaled.width, letterbox.image.width);

@@ -10,16 +10,23 @@
 namespace sediment::segment {
 namespace {
 
-constexpr std::array kStrides = {8, 16, 32};
+/// Levels of the networks there are: the usual ones, and with a finer or a coarser one (P2, P6).
+const std::vector<std::vector<int>> kStrides = {{8, 16, 32}, {4, 8, 16, 32}, {8, 16, 32, 64}};
 
 /// Centre of an anchor and pixels per unit of distance.
 struct Anchor {
   float x = 0, y = 0, stride = 0;
 };
 
-std::vector<Anchor> anchors_of(cv::Size input) {
+int count_anchors(cv::Size input, const std::vector<int>& strides) {
+  int count = 0;
+  for (const int stride : strides) count += (input.height / stride) * (input.width / stride);
+  return count;
+}
+
+std::vector<Anchor> anchors_of(cv::Size input, const std::vector<int>& strides) {
   std::vector<Anchor> anchors;
-  for (const int stride : kStrides)
+  for (const int stride : strides)
     for (int row = 0; row < input.height / stride; ++row)
       for (int column = 0; column < input.width / stride; ++column)
         anchors.push_back(
@@ -69,11 +76,13 @@ void decode_boxes(const cv::Mat& bins, const std::vector<Anchor>& anchors, cv::M
 }  // namespace
 
 cv::Mat decode(const RawHead& head, cv::Size input_size) {
-  const std::vector<Anchor> anchors = anchors_of(input_size);
-  const auto count = static_cast<int>(anchors.size());
-  if (head.bins.cols != count || head.logits.cols != count || head.coefficients.cols != count)
-    throw std::runtime_error("expected " + std::to_string(count) + " anchors (strides 8, 16, 32), found " +
-                             std::to_string(head.bins.cols));
+  const int count = head.bins.cols;
+  const auto strides = std::ranges::find_if(
+      kStrides, [&](const std::vector<int>& each) { return count_anchors(input_size, each) == count; });
+  if (strides == kStrides.end() || head.logits.cols != count || head.coefficients.cols != count)
+    throw std::runtime_error("expected " + std::to_string(count_anchors(input_size, kStrides.front())) +
+                             " anchors (strides 8, 16, 32), found " + std::to_string(count));
+  const std::vector<Anchor> anchors = anchors_of(input_size, *strides);
   if (head.bins.rows == 0 || head.bins.rows % 4 != 0)
     throw std::runtime_error("expected bins for 4 sides, found " + std::to_string(head.bins.rows) + " rows");
 

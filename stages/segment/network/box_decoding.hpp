@@ -5,7 +5,7 @@
 namespace sediment::segment {
 
 /// The tensors of onnx::Head, float32, one column per anchor. Anchors are ordered by level, fine to coarse
-/// (strides 8, 16, 32), then row by row.
+/// (strides 8, 16, 32, with more anchors also 4 or 64), then row by row.
 struct RawHead {
   cv::Mat bins;          ///< 4 * n rows: sides left, top, right, bottom, n bins each
   cv::Mat logits;        ///< one row per class

@@ -30,6 +30,8 @@ void read_input(const Model& model, Layout& layout) {
   if (input.element_type != kFloat32)
     fail(model, "expected a float32 input, found element type " + std::to_string(input.element_type) +
                     ": export it without half or int8");
+  constexpr std::int64_t kMost = 1 << 14;
+  if (shape[2] > kMost || shape[3] > kMost) fail(model, "its input is too large: " + to_string(input));
   layout.input = input.name;
   layout.input_size = {static_cast<int>(std::max<std::int64_t>(shape[2], 0)),
                        static_cast<int>(std::max<std::int64_t>(shape[3], 0))};

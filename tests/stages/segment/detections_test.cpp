@@ -71,6 +71,8 @@ TEST_CASE("an anchor stands for its best class only, and needs more than that cl
 TEST_CASE("scores that are not numbers make no detection") {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   CHECK(detect(prediction_of({{50, 50, nan, nan}}), selection()).empty());
+  CHECK(detect(prediction_of({{nan, 50, 0.9f, 0}}), selection()).empty());
+  CHECK(detect(prediction_of({{50, std::numeric_limits<float>::infinity(), 0.9f, 0}}), selection()).empty());
   CHECK(detect(prediction_of({}), selection()).empty());
 }
 
@@ -121,14 +123,16 @@ TEST_CASE("boxes are decoded as the mean of their bins under a softmax") {
   std::mt19937 random(9);
   std::normal_distribution<float> normal(0, 3);
   const cv::Size input(96, 64);
-  const int count = 126, bins = 5;
+  const int bins = 5;
+  const auto [count, strides] =
+      GENERATE(table<int, std::vector<int>>({{126, {8, 16, 32}}, {510, {4, 8, 16, 32}}}));
   RawHead head{cv::Mat(4 * bins, count, CV_32F), cv::Mat(2, count, CV_32F), cv::Mat(3, count, CV_32F)};
   for (const cv::Mat& part : {head.bins, head.logits, head.coefficients})
     for (float& value : cv::Mat_<float>(part)) value = normal(random);
   const cv::Mat decoded = decode(head, input);
   REQUIRE(decoded.size() == cv::Size(count, 9));
   int anchor = 0;
-  for (const int stride : {8, 16, 32})
+  for (const int stride : strides)
     for (int row = 0; row < input.height / stride; ++row)
       for (int column = 0; column < input.width / stride; ++column, ++anchor) {
         std::array<double, 4> side{};

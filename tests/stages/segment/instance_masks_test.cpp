@@ -78,6 +78,8 @@ TEST_CASE("a box over the whole image and beyond is clipped to it") {
   prediction.anchors = 1.0f;
   const auto objects =
       assemble(prediction, {{0, 0.5f, {-50, -50, 500, 500}, 0}}, fit(image, image), {"thing"});
+  CHECK(assemble(prediction, {{0, 0.5f, {-1e30f, -1e30f, 1e30f, 1e30f}, 0}}, fit(image, image), {"thing"})
+            .size() == 1);
   REQUIRE(objects.size() == 1);
   CHECK(objects[0].box_px == std::array<double, 4>{0, 0, 160, 120});
   CHECK(cv::countNonZero(objects[0].pixels) == 160 * 120);
