@@ -31,6 +31,7 @@ target_link_libraries(sediment_pcl_filters INTERFACE sediment_pcl_io ${PCL_FILTE
 add_library(sediment_octomap INTERFACE)
 target_include_directories(sediment_octomap SYSTEM INTERFACE ${OCTOMAP_INCLUDE_DIRS})
 target_link_libraries(sediment_octomap INTERFACE ${OCTOMAP_LIBRARIES})
+target_compile_definitions(sediment_octomap INTERFACE OCTOMAP_NODEBUGOUT)  # else it talks on stderr
 
 # One interface target per OpenCV module, with the headers marked as the system's.
 foreach(module core imgproc imgcodecs features2d calib3d flann video dnn)

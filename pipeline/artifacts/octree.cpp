@@ -17,36 +17,50 @@ namespace {
 
 /// A node in a .ot file: log-odds as float, three bytes of colour, one byte of children.
 constexpr std::uint64_t kNodeBytes = 8;
+constexpr const char* kTreeLine = "# Octomap OcTree file";
 
-void write_stream(const std::filesystem::path& file, const std::function<bool(std::ostream&)>& write) {
+/// Writes a tree as OctoMap does (AbstractOcTree::write and writeBinary), whose own functions talk on stderr.
+void write_tree(const std::filesystem::path& file, const char* first_line, const octomap::ColorOcTree& tree,
+                const std::function<void(std::ostream&)>& write_nodes) {
   std::ofstream stream(file, std::ios::binary);
-  const bool written = stream && write(stream);
+  stream << first_line << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\n"
+         << "id " << tree.getTreeType() << "\nsize " << tree.size() << "\nres " << tree.getResolution()
+         << "\ndata\n";
+  if (stream) write_nodes(stream);
   stream.close();
-  if (!written || !stream) throw std::runtime_error("cannot write " + file.string());
+  if (!stream) throw std::runtime_error("cannot write " + file.string());
 }
 
-/// OctoMap's own reader runs wild on a file that is cut off, so the header is checked against the size first.
-void check_whole(const std::string& content, const std::string& name) {
-  std::istringstream stream(content);
-  std::string line, id;
+/// What stands before the nodes in a .ot file.
+struct TreeHeader {
+  double resolution_m = 0;
   std::uint64_t nodes = 0;
+};
+
+/// OctoMap's own reader runs wild on a file that is cut off, so the size is checked first. Leaves the stream
+/// at the first node.
+TreeHeader read_header(std::istringstream& stream, std::uint64_t content_bytes) {
+  TreeHeader header;
+  std::string line, id;
   std::getline(stream, line);
-  if (!line.starts_with("# Octomap OcTree file"))
-    throw std::runtime_error(name + ": not an OctoMap tree (.ot)");
+  if (!line.starts_with(kTreeLine)) throw std::runtime_error("not an OctoMap tree (.ot)");
   while (std::getline(stream, line) && line != "data") {
     std::istringstream words(line);
     std::string key;
     words >> key;
     if (key == "id") words >> id;
-    if (key == "size") words >> nodes;
+    if (key == "size") words >> header.nodes;
+    if (key == "res") words >> header.resolution_m;
   }
-  if (line != "data") throw std::runtime_error(name + ": truncated header");
-  if (id != "ColorOcTree") throw std::runtime_error(name + ": expected a ColorOcTree, found \"" + id + "\"");
-  const std::uint64_t found = content.size() - static_cast<std::uint64_t>(stream.tellg());
-  if (found != nodes * kNodeBytes)
-    throw std::runtime_error(name + ": truncated: " + std::to_string(nodes) + " nodes need " +
-                             std::to_string(nodes * kNodeBytes) + " bytes, " + std::to_string(found) +
+  if (line != "data") throw std::runtime_error("truncated header");
+  if (id != "ColorOcTree") throw std::runtime_error("expected a ColorOcTree, found \"" + id + "\"");
+  if (!(header.resolution_m > 0)) throw std::runtime_error("damaged header: no resolution");
+  const std::uint64_t found = content_bytes - static_cast<std::uint64_t>(stream.tellg());
+  if (found != header.nodes * kNodeBytes)
+    throw std::runtime_error("truncated: " + std::to_string(header.nodes) + " nodes need " +
+                             std::to_string(header.nodes * kNodeBytes) + " bytes, " + std::to_string(found) +
                              " found");
+  return header;
 }
 
 std::string leaf_label_text(const std::vector<LeafLabel>& leaf_labels) {
@@ -69,25 +83,32 @@ std::string leaf_label_text(const std::vector<LeafLabel>& leaf_labels) {
 void write_octree(const std::filesystem::path& folder, octomap::ColorOcTree& tree,
                   const std::vector<LeafLabel>& leaf_labels, const LabelTable& labels) {
   std::filesystem::create_directories(folder);
-  write_stream(folder / "map.ot", [&](std::ostream& stream) { return tree.write(stream); });
+  write_tree(folder / "map.ot", kTreeLine, tree, [&](std::ostream& stream) { tree.writeData(stream); });
   write_bytes(folder / "leaf_labels.csv", {leaf_label_text(leaf_labels)});
   std::set<std::uint32_t> present;
   for (const LeafLabel& leaf : leaf_labels) present.insert(leaf.label);
   write_label_csv(folder / "labels.csv", labels, present);
   // Last, as it rounds the tree to occupied and free and prunes it.
-  write_stream(folder / "map.bt", [&](std::ostream& stream) { return tree.writeBinary(stream); });
+  tree.toMaxLikelihood();
+  tree.prune();
+  write_tree(folder / "map.bt", "# Octomap OcTree binary file", tree, [&](std::ostream& stream) {
+    if (tree.getRoot() != nullptr) tree.writeBinaryNode(stream, tree.getRoot());
+  });
 }
 
 std::unique_ptr<octomap::ColorOcTree> read_octree(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "map.ot";
   const std::string content = read_bytes(file);
-  check_whole(content, file.string());
   std::istringstream stream(content);
-  std::unique_ptr<octomap::AbstractOcTree> tree(octomap::AbstractOcTree::read(stream));
-  auto* color_tree = dynamic_cast<octomap::ColorOcTree*>(tree.get());
-  if (color_tree == nullptr || !stream) throw std::runtime_error(file.string() + ": damaged tree");
-  tree.release();
-  return std::unique_ptr<octomap::ColorOcTree>(color_tree);
+  try {
+    const TreeHeader header = read_header(stream, content.size());
+    auto tree = std::make_unique<octomap::ColorOcTree>(header.resolution_m);
+    if (header.nodes > 0) tree->readData(stream);
+    if (!stream || tree->size() != header.nodes) throw std::runtime_error("damaged tree");
+    return tree;
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(file.string() + ": " + error.what());
+  }
 }
 
 std::vector<LeafLabel> read_leaf_labels(const std::filesystem::path& folder) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pipeline/artifacts/trajectory_file.hpp"
-#include "tools/evaluate-trajectory/alignment.hpp"
+#include "tools/alignment/alignment.hpp"
 #include "tools/evaluate-trajectory/relative_error.hpp"
 #include "tools/evaluate-trajectory/statistics.hpp"
 

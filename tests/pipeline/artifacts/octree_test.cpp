@@ -55,10 +55,12 @@ TEST_CASE("an octree survives writing and reading, and OctoMap opens both files"
   CHECK(read_bytes(folder / "labels.csv") == "id,name,r,g,b\n56,chair,230,25,25\n");
 }
 
-TEST_CASE("the .bt file is the one that OctoMap writes by itself") {
+TEST_CASE("the files of a tree are the ones that OctoMap writes by itself") {
   const test::TemporaryFolder folder;
   write_octree(folder.path(), *some_tree(), {}, default_labels());
+  some_tree()->write((folder / "by_octomap.ot").string());
   some_tree()->writeBinary((folder / "by_octomap.bt").string());
+  CHECK(read_bytes(folder / "map.ot") == read_bytes(folder / "by_octomap.ot"));
   CHECK(read_bytes(folder / "map.bt") == read_bytes(folder / "by_octomap.bt"));
 }
 

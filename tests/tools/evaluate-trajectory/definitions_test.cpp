@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "tools/chart/chart.hpp"
-#include "tools/evaluate-trajectory/alignment.hpp"
+#include "tools/alignment/alignment.hpp"
 #include "tools/evaluate-trajectory/matching.hpp"
 #include "tools/evaluate-trajectory/python_random.hpp"
 #include "tools/evaluate-trajectory/statistics.hpp"

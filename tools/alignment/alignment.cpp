@@ -1,4 +1,4 @@
-#include "tools/evaluate-trajectory/alignment.hpp"
+#include "tools/alignment/alignment.hpp"
 
 #include <Eigen/Geometry>
 
