@@ -23,7 +23,7 @@ void add_metres(cv::Mat& picture, const GridMap& map, int cell_px) {
   const double step_m = px_per_metre < 40 ? 5 : 1;
   const auto label = [](double metres) {
     char text[16];
-    std::snprintf(text, sizeof text, "%g", metres);
+    std::snprintf(text, sizeof text, "%g", metres + 0.0);  // -0 becomes 0
     return std::string(text);
   };
   cv::Mat lines = picture.clone();

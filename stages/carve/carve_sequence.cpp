@@ -1,0 +1,59 @@
+#include "stages/carve/carve_sequence.hpp"
+
+#include <stdexcept>
+
+namespace sediment::carve {
+namespace {
+
+/// A frame's own pose; else one interpolated between neighbours that are close. A lost frame gets no other
+/// frame's.
+std::optional<Pose> pose_of(const Trajectory& trajectory, double stamp_s) {
+  constexpr double kSameStamp_s = 1e-4, kGap_s = 0.04;
+  if (const auto idx = nearest_pose(trajectory, stamp_s, kSameStamp_s))
+    return trajectory[*idx].world_from_camera;
+  return pose_at(trajectory, stamp_s, kGap_s);
+}
+
+cv::Mat dynamic_of(const std::optional<DynamicMasksReader>& dynamic, const std::string& stamp,
+                   const cv::Size& size) {
+  if (!dynamic || !dynamic->has(stamp)) return {};
+  cv::Mat mask = dynamic->read(stamp);
+  if (mask.size() != size)
+    throw std::runtime_error("dynamic mask of frame " + stamp + ": " + std::to_string(mask.cols) + " x " +
+                             std::to_string(mask.rows) + " pixels, the depth image has " +
+                             std::to_string(size.width) + " x " + std::to_string(size.height));
+  return mask;
+}
+
+}  // namespace
+
+Carved carve_cloud(const LabelledCloud& cloud, const Sequence& sequence, const Trajectory& trajectory,
+                   const std::optional<DynamicMasksReader>& dynamic, int every_nth,
+                   const Parameters& parameters, const std::function<void()>& advance) {
+  Carved carved;
+  std::vector<Votes> votes(cloud.size());
+  for (std::size_t idx = 0; idx < sequence.size(); idx += static_cast<std::size_t>(every_nth)) {
+    const SequenceEntry& entry = sequence.entry(idx);
+    if (const auto pose = pose_of(trajectory, entry.stamp_s)) {
+      DepthView view{pose->inverse(), sequence.depth(idx), {}};
+      view.dynamic = dynamic_of(dynamic, entry.stamp, view.depth.size());
+      add_votes(cloud, sequence.camera(), view, parameters, votes);
+      ++carved.statistics.views;
+    } else {
+      ++carved.statistics.frames_without_pose;
+    }
+    advance();
+  }
+  if (carved.statistics.views == 0)
+    throw std::runtime_error(
+        "no frame of the sequence has a pose in the trajectory: nothing can be seen through");
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const bool goes = is_carved(votes[i], parameters);
+    (goes ? carved.removed : carved.kept).push_back(cloud[i]);
+    carved.statistics.never_seen += votes[i].through + votes[i].hits == 0 ? 1 : 0;
+    carved.statistics.spared += !goes && votes[i].through > 0 ? 1 : 0;
+  }
+  return carved;
+}
+
+}  // namespace sediment::carve

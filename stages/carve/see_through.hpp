@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "pipeline/scene/camera.hpp"
+#include "pipeline/scene/labelled_point.hpp"
+#include "pipeline/scene/pose.hpp"
+
+namespace sediment::carve {
+
+struct Parameters {
+  double noise = 0.0014;  ///< deviation of a depth at 1 m; grows with the square of the depth
+  double sigmas = 4;      ///< of that noise which a depth may be off
+  double slack_m = 0.02;  ///< for the poses, at any depth
+  double min_depth_m = 0.4, max_depth_m = 5;
+  int window_px = 2;       ///< reach of the window that must be seen through as a whole
+  int min_views = 3;       ///< that see through a point, for it to go
+  double min_share = 0.5;  ///< of the views that tell something about a point
+};
+
+/// One look at the scene.
+struct DepthView {
+  Pose camera_from_world;
+  cv::Mat depth;    ///< CV_16UC1, 0 = no value
+  cv::Mat dynamic;  ///< CV_8UC1 or empty; other than 0: what is there tells nothing about what stays
+};
+
+/// What the views say about one point.
+struct Votes {
+  std::uint16_t through = 0;  ///< views that see something behind it
+  std::uint16_t hits = 0;     ///< views that see it
+};
+
+/// Adds a view's votes, one entry of `votes` for each point. A view sees a point if some static depth of the
+/// window around its image is that of the point within the tolerance; it sees through it if every pixel of
+/// the window has a depth, and all of them lie behind the point by more than the tolerance. So a point at an
+/// edge, on a surface seen at a grazing angle or where the sensor says nothing is never seen through. In
+/// parallel; counts do not depend on it.
+void add_votes(const LabelledCloud& cloud, const Camera& camera, const DepthView& view,
+               const Parameters& parameters, std::vector<Votes>& votes);
+
+/// Whether the point goes.
+bool is_carved(const Votes& votes, const Parameters& parameters);
+
+}  // namespace sediment::carve
