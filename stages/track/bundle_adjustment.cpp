@@ -2,14 +2,18 @@
 
 #include <ceres/ceres.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <memory>
 #include <stdexcept>
 
+#include "stages/track/link_residual.hpp"
+
 namespace sediment::track {
 namespace {
 
+using RowMajor6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 constexpr double kNearest_m = 0.05;
 
@@ -105,6 +109,37 @@ class TimedObservationCost : public ceres::SizedCostFunction<3, 7, 3, 2> {
   const Pinhole& pinhole_;
 };
 
+// A link in units of standard deviations.
+class LinkCost : public ceres::SizedCostFunction<6, 7, 7> {
+ public:
+  explicit LinkCost(const Bundle::Link& link) : link_(link) {
+    const Eigen::Map<const RowMajor6> information(link.information.data());
+    const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> ldlt(information);
+    // information = P^T L D L^T P, and its root is sqrt(D) L^T P.
+    root_ = ldlt.vectorD().cwiseMax(0).cwiseSqrt().asDiagonal() *
+            Eigen::Matrix<double, 6, 6>(ldlt.matrixU()) *
+            Eigen::Matrix<double, 6, 6>(ldlt.transpositionsP() * Eigen::Matrix<double, 6, 6>::Identity());
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const auto pose = [](const double* x) { return pose_from({x[0], x[1], x[2], x[3]}, {x[4], x[5], x[6]}); };
+    const LinkResidual r = link_residual(pose(parameters[0]), pose(parameters[1]), link_.to_from_from);
+    Eigen::Map<Eigen::Matrix<double, 6, 1>>(residuals).noalias() =
+        root_ * Eigen::Map<const Eigen::Matrix<double, 6, 1>>(r.error.data());
+    for (int i = 0; jacobians && i < 2; ++i) {
+      if (!jacobians[i]) continue;
+      Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> j(jacobians[i]);
+      j.leftCols<6>().noalias() = root_ * Eigen::Map<const RowMajor6>((i == 0 ? r.by_from : r.by_to).data());
+      j.col(6).setZero();
+    }
+    return true;
+  }
+
+ private:
+  Bundle::Link link_;
+  Eigen::Matrix<double, 6, 6> root_;
+};
+
 // Weak knowledge of the timing: within 1/30 s, the period of a frame.
 class TimingPrior : public ceres::SizedCostFunction<2, 2> {
  public:
@@ -143,7 +178,7 @@ double adjust(Bundle& bundle, const Pinhole& pinhole, const AdjustmentRule& rule
   ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ownership.disable_all_safety_checks = true;
   PoseManifold manifold;
-  ceres::HuberLoss huber2(std::sqrt(kChiSquare2)), huber3(std::sqrt(kChiSquare3));
+  ceres::HuberLoss huber2(std::sqrt(kChiSquare2)), huber3(std::sqrt(kChiSquare3)), huber6(std::sqrt(12.592));
   ceres::Problem problem(ownership);
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
 
@@ -177,6 +212,9 @@ double adjust(Bundle& bundle, const Pinhole& pinhole, const AdjustmentRule& rule
     else
       problem.AddResidualBlock(new ObservationCost(o.measurement, pinhole), loss, camera, point);
   }
+  for (const Bundle::Link& link : bundle.links)
+    problem.AddResidualBlock(new LinkCost(link), rule.robust ? &huber6 : nullptr,
+                             cameras[link.from_idx].data(), cameras[link.to_idx].data());
   ceres::Solver::Options options = options_of(rule, free_cameras);
   options.linear_solver_ordering = ordering;
   ceres::Solver::Summary summary;

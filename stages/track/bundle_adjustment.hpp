@@ -16,7 +16,13 @@ struct Bundle {
     int camera_idx = 0, point_idx = 0;
     Measurement measurement;
   };
+  struct Link {
+    int from_idx = 0, to_idx = 0;  ///< cameras
+    Pose to_from_from;
+    std::array<double, 36> information{};
+  };
   std::vector<Camera> cameras;
+  std::vector<Link> links;
   std::vector<Vec3> points;
   std::vector<Observation> observations;
   SensorTiming timing;  ///< that the measurements were made with; improved if the rule says so

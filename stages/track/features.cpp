@@ -19,15 +19,6 @@ std::array<float, kPyramidLevels> level_scales() {
   return scales;
 }
 
-// 255 where features may be: not on dynamic pixels, not within their halo.
-cv::Mat allowed_pixels(const cv::Mat& mask, int halo_px) {
-  if (mask.empty()) return {};
-  cv::Mat dynamic = mask != 0, grown;
-  const cv::Size size(2 * halo_px + 1, 2 * halo_px + 1);
-  cv::dilate(dynamic, grown, cv::getStructuringElement(cv::MORPH_RECT, size));
-  return 255 - grown;
-}
-
 std::vector<Descriptor> describe(const cv::Mat& gray, std::vector<cv::KeyPoint>& corners) {
   // The edge is checked level by level in spread_corners already.
   const auto orb = cv::ORB::create(1, kPyramidScale, kPyramidLevels, 0, 0, 2, cv::ORB::FAST_SCORE, 31);
@@ -82,9 +73,16 @@ void FrameFeatures::find_near(float u_px, float v_px, float radius_px, int min_o
     }
 }
 
-FrameFeatures find_features(const cv::Mat& gray, const cv::Mat& mask, const Camera& camera,
+cv::Mat allowed_pixels(const cv::Mat& dynamic_mask, int halo_px) {
+  if (dynamic_mask.empty()) return {};
+  cv::Mat dynamic = dynamic_mask != 0, grown;
+  const cv::Size size(2 * halo_px + 1, 2 * halo_px + 1);
+  cv::dilate(dynamic, grown, cv::getStructuringElement(cv::MORPH_RECT, size));
+  return 255 - grown;
+}
+
+FrameFeatures find_features(const cv::Mat& gray, const cv::Mat& allowed, const Camera& camera,
                             const Parameters& parameters) {
-  const cv::Mat allowed = allowed_pixels(mask, parameters.mask_halo_px);
   std::vector<cv::KeyPoint> corners = spread_corners(image_pyramid(gray), allowed, parameters.features);
   auto descriptors = std::make_shared<const std::vector<Descriptor>>(describe(gray, corners));
   std::vector<Feature> features;

@@ -66,10 +66,14 @@ class FrameFeatures {
 };
 
 /// ORB features of a frame (Rublee et al., ICCV 2011): FAST corners over a pyramid, spread evenly over the
-/// image, none on the dynamic pixels of `mask` (CV_8UC1, any value but 0; may be empty) or within their halo.
-/// `gray` is CV_8UC1 and raw. Without depth yet: measured_features adds it.
-FrameFeatures find_features(const cv::Mat& gray, const cv::Mat& mask, const Camera& camera,
+/// image, none where `allowed` (CV_8UC1, may be empty) is 0. `gray` is CV_8UC1 and raw. Without depth yet:
+/// measured_features adds it.
+FrameFeatures find_features(const cv::Mat& gray, const cv::Mat& allowed, const Camera& camera,
                             const Parameters& parameters);
+
+/// 255 where features may be, 0 on the dynamic pixels of a mask (any value but 0) and within their halo;
+/// empty if the mask is.
+cv::Mat allowed_pixels(const cv::Mat& dynamic_mask, int halo_px);
 
 /// What is known of the camera while it took a frame.
 struct Exposure {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pipeline/scene/pose.hpp"
+#include "stages/track/dense_frame.hpp"
 #include "stages/track/features.hpp"
 
 namespace sediment::track {
@@ -30,8 +31,17 @@ struct Keyframe {
   int frame_idx = 0;
   Pose world_from_camera;
   std::shared_ptr<const FrameFeatures> features;
+  std::shared_ptr<const DenseFrame> dense;
   std::vector<int> point_ids;  ///< per feature, -1 = none
   double noise_scale = 1;      ///< of its measurements, as PoseEstimate
+};
+
+/// How two keyframes lie to each other by the alignment of their whole images: what holds the map together
+/// where there are few landmarks.
+struct Link {
+  int from_idx = 0, to_idx = 0;  ///< keyframes
+  Pose to_from_from;
+  std::array<double, 36> information{};  ///< of its error: rotation on the left, then translation
 };
 
 /// Landmarks and the keyframes that see them (ORB-SLAM's map: Mur-Artal and Tardos, T-RO 2017). Identifiers
@@ -40,6 +50,7 @@ class Map {
  public:
   std::vector<MapPoint> points;
   std::vector<Keyframe> keyframes;
+  std::vector<Link> links;
 
   /// Adds the sighting to the point and the point to the keyframe.
   void connect(int point_id, Sighting sighting);

@@ -33,6 +33,10 @@ Extract extract(const Map& map, const std::vector<std::pair<int, bool>>& keyfram
       part.point_id.push_back(point_id);
       part.bundle.points.push_back(map.points[point_id].position);
     }
+  for (const Link& link : map.links) {
+    const int from = camera_of[link.from_idx], to = camera_of[link.to_idx];
+    if (from >= 0 && to >= 0) part.bundle.links.push_back({from, to, link.to_from_from, link.information});
+  }
   for (std::size_t i = 0; i < part.point_id.size(); ++i)
     for (const Sighting& s : map.points[part.point_id[i]].sightings) {
       if (camera_of[s.keyframe_idx] < 0) continue;
@@ -77,11 +81,14 @@ void adjust_around(Map& map, int keyframe_idx, const Pinhole& pinhole) {
   std::vector<std::pair<int, bool>> keyframes{{keyframe_idx, keyframe_idx == 0}};
   std::vector<char> chosen(map.keyframes.size(), 0);
   chosen[keyframe_idx] = 1;
-  for (const auto& [shared, other] : map.covisible(keyframe_idx, kLeastShared)) {
-    if (static_cast<int>(keyframes.size()) >= kLocalKeyframes) break;
+  const auto choose = [&](int other) {
+    if (chosen[other] || static_cast<int>(keyframes.size()) >= kLocalKeyframes) return;
     keyframes.emplace_back(other, other == 0);
     chosen[other] = 1;
-  }
+  };
+  for (const Link& link : map.links)
+    if (link.to_idx == keyframe_idx) choose(link.from_idx);
+  for (const auto& [shared, other] : map.covisible(keyframe_idx, kLeastShared)) choose(other);
   // Keyframes outside that hold the most of these landmarks keep the window in place.
   std::vector<int> votes(map.keyframes.size(), 0);
   std::vector<char> counted(map.points.size(), 0);

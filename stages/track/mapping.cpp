@@ -78,8 +78,13 @@ int add_keyframe(Map& map, int frame_idx, const Pose& world_from_camera,
                  double noise_scale, const Pinhole& pinhole) {
   const int keyframe_idx = static_cast<int>(map.keyframes.size());
   const std::size_t size = features->size();
-  map.keyframes.push_back(
-      {frame_idx, world_from_camera, std::move(features), std::vector<int>(size, -1), noise_scale});
+  Keyframe keyframe;
+  keyframe.frame_idx = frame_idx;
+  keyframe.world_from_camera = world_from_camera;
+  keyframe.features = std::move(features);
+  keyframe.point_ids.assign(size, -1);
+  keyframe.noise_scale = noise_scale;
+  map.keyframes.push_back(std::move(keyframe));
   for (const Match& match : matches) {
     map.connect(match.point_id, {keyframe_idx, match.feature_idx});
     map.refresh_point(match.point_id);

@@ -15,8 +15,6 @@
 namespace sediment::track {
 namespace {
 
-using Features = std::shared_ptr<const FrameFeatures>;
-
 void require_forward_time(const Recording& recording) {
   for (std::size_t i = 1; i < recording.stamps_s.size(); ++i)
     if (!(recording.stamps_s[i] > recording.stamps_s[i - 1]))
@@ -30,26 +28,36 @@ double depth_delay_s(const Recording& recording, std::size_t frame_idx) {
              : recording.depth_stamps_s[frame_idx] - recording.stamps_s[frame_idx];
 }
 
-// Features of a frame, found in its images.
-Features found_features(const Recording& recording, const Parameters& parameters, std::size_t frame_idx) {
+// What tracking needs of a frame, found in its images.
+View found_view(const Recording& recording, const Parameters& parameters, const DenseCamera& dense_camera,
+                std::size_t frame_idx) {
   const Frame frame = recording.frame(frame_idx);
   const cv::Mat mask = recording.dynamic_mask ? recording.dynamic_mask(frame_idx) : cv::Mat();
+  const cv::Mat allowed = allowed_pixels(mask, parameters.mask_halo_px);
   cv::Mat gray;
   cv::cvtColor(frame.color, gray, cv::COLOR_BGR2GRAY);
-  return std::make_shared<const FrameFeatures>(
-      measured_features(find_features(gray, mask, recording.camera, parameters), frame.depth,
+  View view;
+  view.features = std::make_shared<const FrameFeatures>(
+      measured_features(find_features(gray, allowed, recording.camera, parameters), frame.depth,
                         recording.camera, {}, parameters));
+  view.dense = std::make_shared<const DenseFrame>(
+      dense_frame(gray, frame.depth, allowed, dense_camera, parameters.depth_noise));
+  view.images =
+      std::make_shared<const DenseImages>(dense_images(*view.dense, dense_camera, parameters.depth_noise));
+  return view;
 }
 
-// What the first pass has learned about a frame.
+// What a pass has learned about the frames, for the next one.
 struct Hindsight {
-  std::vector<Features> features;
+  std::vector<std::shared_ptr<const FrameFeatures>> features;
+  std::vector<std::shared_ptr<const DenseFrame>> dense;
   std::vector<Motion> motions;
   SensorTiming timing;
 };
 
-Features corrected_features(const Recording& recording, const Parameters& parameters,
-                            const Hindsight& hindsight, std::size_t frame_idx) {
+std::shared_ptr<const FrameFeatures> corrected_features(const Recording& recording,
+                                                        const Parameters& parameters,
+                                                        const Hindsight& hindsight, std::size_t frame_idx) {
   const Exposure exposure{hindsight.motions[frame_idx], hindsight.timing,
                           depth_delay_s(recording, frame_idx)};
   const cv::Mat depth = recording.depth ? recording.depth(frame_idx) : recording.frame(frame_idx).depth;
@@ -57,8 +65,18 @@ Features corrected_features(const Recording& recording, const Parameters& parame
       measured_features(*hindsight.features[frame_idx], depth, recording.camera, exposure, parameters));
 }
 
-// Features of coming frames are made while earlier ones are tracked, one by one and in order.
-void run_front_end(const Recording& recording, const std::function<Features(std::size_t)>& features_of,
+View corrected_view(const Recording& recording, const Parameters& parameters, const DenseCamera& dense_camera,
+                    const Hindsight& hindsight, std::size_t frame_idx) {
+  View view;
+  view.features = corrected_features(recording, parameters, hindsight, frame_idx);
+  view.dense = hindsight.dense[frame_idx];
+  view.images =
+      std::make_shared<const DenseImages>(dense_images(*view.dense, dense_camera, parameters.depth_noise));
+  return view;
+}
+
+// Views of coming frames are made while earlier ones are tracked, one by one and in order.
+void run_front_end(const Recording& recording, const std::function<View(std::size_t)>& view_of,
                    const std::function<void()>& advance, Tracker& tracker) {
   const std::size_t in_flight = 2 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + 2;
   std::size_t next = 0;
@@ -67,14 +85,13 @@ void run_front_end(const Recording& recording, const std::function<Features(std:
                                                           if (next == recording.stamps.size()) control.stop();
                                                           return next++;
                                                         });
-  const auto extract = tbb::make_filter<std::size_t, Features>(tbb::filter_mode::parallel, features_of);
+  const auto view = tbb::make_filter<std::size_t, View>(tbb::filter_mode::parallel, view_of);
   std::size_t tracked = 0;
-  const auto follow =
-      tbb::make_filter<Features, void>(tbb::filter_mode::serial_in_order, [&](Features features) {
-        tracker.track(recording.stamps_s[tracked++], std::move(features));
-        if (advance) advance();
-      });
-  tbb::parallel_pipeline(in_flight, read & extract & follow);
+  const auto follow = tbb::make_filter<View, void>(tbb::filter_mode::serial_in_order, [&](const View& v) {
+    tracker.track(recording.stamps_s[tracked++], v);
+    if (advance) advance();
+  });
+  tbb::parallel_pipeline(in_flight, read & view & follow);
 }
 
 Hindsight learn(const Recording& recording, Tracker& tracker, const SensorTiming& timing) {
@@ -86,6 +103,7 @@ Hindsight learn(const Recording& recording, Tracker& tracker, const SensorTiming
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const TrackedFrame& frame = tracker.frames()[i];
     hindsight.features.push_back(frame.features);
+    hindsight.dense.push_back(frame.dense);
     if (!frame.tracked) continue;
     poses[i] = camera_from_world(frame, tracker.map()).inverse();
     known[i] = &poses[i];
@@ -136,18 +154,21 @@ Tracked track(const Recording& recording, const Parameters& parameters,
               const std::function<void()>& advance) {
   require_forward_time(recording);
   const Pinhole pinhole = pinhole_of(recording.camera, parameters);
-  auto tracker = std::make_unique<Tracker>(pinhole, parameters);
+  const DenseCamera dense_camera(recording.camera);
+  auto tracker = std::make_unique<Tracker>(pinhole, dense_camera, parameters);
   run_front_end(
-      recording, [&](std::size_t i) { return found_features(recording, parameters, i); }, advance, *tracker);
+      recording, [&](std::size_t i) { return found_view(recording, parameters, dense_camera, i); }, advance,
+      *tracker);
   SensorTiming timing;
   for (int pass = 1; pass <= parameters.passes && tracker->map().keyframes.size() > 1; ++pass) {
     measure_again(recording, parameters, timing, true, *tracker);
     timing = adjust_all(tracker->map(), pinhole, timing);
     if (pass == parameters.passes) break;
     const Hindsight hindsight = learn(recording, *tracker, timing);
-    tracker = std::make_unique<Tracker>(pinhole, parameters);
+    tracker = std::make_unique<Tracker>(pinhole, dense_camera, parameters);
     run_front_end(
-        recording, [&](std::size_t i) { return corrected_features(recording, parameters, hindsight, i); }, {},
+        recording,
+        [&](std::size_t i) { return corrected_view(recording, parameters, dense_camera, hindsight, i); }, {},
         *tracker);
   }
   if (tracker->map().keyframes.size() > 1) {

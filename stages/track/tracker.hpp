@@ -1,9 +1,11 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "stages/track/dense_alignment.hpp"
 #include "stages/track/map.hpp"
 #include "stages/track/matching.hpp"
 #include "stages/track/parameters.hpp"
@@ -15,11 +17,19 @@ namespace sediment::track {
 struct TrackedFrame {
   double stamp_s = 0;
   std::shared_ptr<const FrameFeatures> features;
+  std::shared_ptr<const DenseFrame> dense;
   bool tracked = false, keyframe = false;
   int reference_idx = -1;  ///< keyframe
   Pose camera_from_reference;
   int matches = 0, inliers = 0;
   double residual_px = 0;
+};
+
+/// What tracking takes from a frame's images.
+struct View {
+  std::shared_ptr<const FrameFeatures> features;
+  std::shared_ptr<const DenseFrame> dense;
+  std::shared_ptr<const DenseImages> images;  ///< of `dense`
 };
 
 /// Pose of a tracked frame in the world as the map is now.
@@ -28,11 +38,12 @@ Pose camera_from_world(const TrackedFrame& frame, const Map& map);
 /// The front end: poses frame after frame against a map that grows on the way.
 class Tracker {
  public:
-  Tracker(const Pinhole& pinhole, const Parameters& parameters)
-      : pinhole_(pinhole), parameters_(parameters) {}
+  /// `dense_camera` must outlive the tracker.
+  Tracker(const Pinhole& pinhole, const DenseCamera& dense_camera, const Parameters& parameters)
+      : pinhole_(pinhole), dense_camera_(dense_camera), parameters_(parameters) {}
 
   /// Frames must come in order of their time.
-  void track(double stamp_s, std::shared_ptr<const FrameFeatures> features);
+  void track(double stamp_s, const View& view);
 
   Map& map() { return map_; }
   std::vector<TrackedFrame>& frames() { return frames_; }
@@ -46,6 +57,10 @@ class Tracker {
 
   bool start_map();
   std::optional<Pose> predicted_pose() const;
+  std::optional<Pose> aligned_to_last(const Pose& predicted) const;
+  std::optional<Found> align_to_keyframe(const Pose& predicted);
+  void link(int from_idx, int to_idx);
+  const DenseImages& images_of(int keyframe_idx);
   std::optional<Found> follow_last_frame(const Pose& predicted) const;
   std::optional<Found> recover_from(int keyframe_idx) const;
   std::optional<Found> relocalise() const;
@@ -55,11 +70,14 @@ class Tracker {
   bool wants_keyframe(const Found& found) const;
 
   Pinhole pinhole_;
+  const DenseCamera& dense_camera_;
   Parameters parameters_;
   Map map_;
   std::vector<TrackedFrame> frames_;
-  std::vector<Match> last_matches_;  ///< of the last tracked frame
-  int last_tracked_ = -1;            ///< index into frames_
+  std::vector<Match> last_matches_;                          ///< of the last tracked frame
+  int last_tracked_ = -1;                                    ///< index into frames_
+  std::shared_ptr<const DenseImages> images_, last_images_;  ///< of this frame, of the last tracked one
+  std::map<int, DenseImages> keyframe_images_;               ///< of the few keyframes aligned to last
 };
 
 }  // namespace sediment::track

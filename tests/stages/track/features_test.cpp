@@ -38,7 +38,8 @@ TEST_CASE("no feature lies on a dynamic pixel or within its halo") {
   cv::Mat mask(camera.height, camera.width, CV_8UC1, cv::Scalar(0));
   mask(cv::Rect(100, 80, 90, 70)) = kNonPriorDynamic;
   Parameters parameters;
-  const auto features = find_features(gray_of(frame), mask, camera, parameters);
+  const auto features =
+      find_features(gray_of(frame), allowed_pixels(mask, parameters.mask_halo_px), camera, parameters);
   CHECK(features.size() > 300);
   const int halo = parameters.mask_halo_px;
   for (const Feature& f : features.features())

@@ -60,14 +60,27 @@ TEST_CASE("one and four threads give the same poses to the last bit") {
     CHECK(results[0].poses[i].world_from_camera == results[1].poses[i].world_from_camera);
 }
 
-TEST_CASE("black frames are lost, and the camera is found again behind them") {
+TEST_CASE("frames without light and depth are lost, and the camera is found again behind them") {
   const auto truth = swaying_poses(45, 0.3, 0.4);
   Trouble trouble;
-  trouble.black = [](std::size_t i) { return i >= 15 && i < 25; };
+  trouble.black = trouble.no_depth = [](std::size_t i) { return i >= 15 && i < 25; };
   const auto tracked = run(record_box_room(truth, small_camera(), trouble));
   for (std::size_t i = 0; i < 45; ++i)
     CHECK((tracked.frames[i].state == TrackingState::lost) == (i >= 15 && i < 25));
   CHECK(position_error_m(tracked, truth) < 0.008);
+}
+
+TEST_CASE(
+    "in the dark a camera is followed by depth alone into a corner of the room, and lost before one wall") {
+  Trouble trouble;
+  trouble.black = [](std::size_t i) { return i >= 8 && i < 12; };
+  auto truth = swaying_poses(20, 0.3, 0.4);
+  CHECK(lost(run(record_box_room(truth, small_camera(), trouble))) == 4);
+  for (Pose& pose : truth) pose = rotation_from({-0.5, 0, 0}) * rotation_from({0, 0.7, 0}) * pose;
+  const auto tracked = run(record_box_room(truth, small_camera(), trouble));
+  CHECK(lost(tracked) == 0);
+  CHECK(tracked.frames[10].inliers == 0);
+  CHECK(position_error_m(tracked, truth) < 0.02);
 }
 
 TEST_CASE("frames under a mask as large as the image are lost, not invented") {
