@@ -26,6 +26,7 @@ void add_selection(CLI::App& app, Arguments& arguments) {
 
 void add_config(CLI::App& app, Arguments& arguments, unsigned takes) {
   if (takes & kFolder) app.add_option("folder", arguments.config, "Folder")->required();
+  if (takes & kTwoFolders) app.add_option("other", arguments.other, "Folder to compare it with")->required();
   if (takes & (kConfig | kOptionalConfig))
     app.add_option("config", arguments.config, "Pipeline: a YAML file, or a folder with a pipeline.yaml")
         ->required(takes & kConfig);
@@ -68,6 +69,25 @@ void add_run_flags(CLI::App& app, Arguments& arguments) {
                "Begin even if results as large as the last ones would not fit on the disk");
 }
 
+void add_table_flags(CLI::App& app, Arguments& arguments) {
+  app.add_option("--value", arguments.values,
+                 "stage.bytes, .seconds, .cpu_seconds, .memory, .FILE or .METRIC; a ratio of two; a [unit] "
+                 "behind it; "
+                 "without a stage: a row per stage. Repeatable [stage.bytes of each stage]")
+      ->type_name("VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--row", arguments.rows,
+                 "An axis of the sweep, or stage; repeatable [all that are no columns]")
+      ->type_name("AXIS")
+      ->allow_extra_args(false);
+  app.add_option("--columns", arguments.columns, "An axis of which every value gets its own columns")
+      ->type_name("AXIS");
+  app.add_option("--aggregate", arguments.aggregate, "mean, sum, min or max of what falls into one cell")
+      ->check(CLI::IsMember({"mean", "sum", "min", "max"}));
+  app.add_option("--format", arguments.format, "markdown, csv, json or latex [markdown]")
+      ->check(CLI::IsMember({"markdown", "csv", "json", "latex"}));
+}
+
 /// Flags that one command alone has.
 void add_own_flags(CLI::App& app, const std::string& name, Arguments& arguments) {
   if (name == "graph")
@@ -77,6 +97,7 @@ void add_own_flags(CLI::App& app, const std::string& name, Arguments& arguments)
     app.add_option("--share", arguments.share, "Share of the results to read, 0 .. 1; picked at random [1]")
         ->check(CLI::Range(0.0, 1.0));
   if (name == "pin" || name == "seal") app.add_flag("--remove", arguments.remove, "Undo it");
+  if (name == "table") add_table_flags(app, arguments);
   if (name != "prune") return;
   app.add_option("--older-than", arguments.older_than, "Results made longer ago: 90s, 15m, 2h, 30d")
       ->type_name("AGE");
@@ -93,6 +114,10 @@ void add_command(CLI::App& root, const Command& command, Arguments& arguments) {
   const unsigned takes = command.takes;
   add_config(app, arguments, takes);
   if (takes & kPlaces) add_places(app, arguments);
+  if (takes & kStore)
+    app.add_option("--store", arguments.store,
+                   "Folder that holds the results [$SEDIMENT_STORE, else FOLDER/.sediment]")
+        ->type_name("DIR");
   if (takes & kPrograms) add_programs(app, arguments);
   if (takes & kSelection) add_selection(app, arguments);
   if (takes & kThreads)

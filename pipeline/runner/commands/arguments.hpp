@@ -26,6 +26,9 @@ struct Arguments {
   std::string older_than, max_size;
   std::vector<std::string> keep;  ///< pipelines whose results prune leaves
   bool dry_run = false;
+  std::filesystem::path other;            ///< the second folder of compare
+  std::vector<std::string> values, rows;  ///< of table
+  std::string columns, aggregate;
   std::string format = "text";  ///< of graph
 };
 

@@ -5,6 +5,8 @@ namespace sediment::runner {
 std::span<const Command> commands() {
   static constexpr Command kCommands[] = {
       {"run", "Bring the results of a pipeline up to date", kLook | kSelection | kThreads | kExecution, run},
+      {"sweep", "Run a pipeline over all combinations of sources and parameters, then show one table",
+       kLook | kSelection | kThreads | kExecution, sweep},
       {"plan", "Show what a run would do and why, with the exact calls; runs nothing",
        kLook | kSelection | kThreads | kJson, show_plan},
       {"why", "Show in what a stage differs from its last result, part by part",
@@ -18,6 +20,9 @@ std::span<const Command> commands() {
        kLook | kStage, accept_stage},
       {"pin", "Keep the present results of a pipeline, or of one stage, from being pruned",
        kLook | kOptionalStage, pin},
+      {"table", "Tables of sizes, times and metrics from the receipts of a run or a sweep; runs nothing",
+       kFolder | kStore, show_table},
+      {"compare", "Show in what the results of two runs differ", kFolder | kTwoFolders | kStore, compare},
       {"verify", "Check the results in a store by digest; what is damaged is put aside",
        kOptionalConfig | kPlaces, verify_store},
       {"prune", "Remove results from a store by age, size or reachability",

@@ -19,6 +19,8 @@ enum Takes : unsigned {
   kThreads = 256,
   kExecution = 512,  ///< -j, --keep-going, ...
   kJson = 1024,
+  kStore = 2048,  ///< --store alone
+  kTwoFolders = 4096,
   kLook = kConfig | kPlaces | kPrograms,
 };
 
@@ -44,5 +46,8 @@ int pin(const Arguments& arguments);
 int verify_store(const Arguments& arguments);
 int prune_store(const Arguments& arguments);
 int seal(const Arguments& arguments);
+int sweep(const Arguments& arguments);
+int show_table(const Arguments& arguments);
+int compare(const Arguments& arguments);
 
 }  // namespace sediment::runner

@@ -1,5 +1,7 @@
 #include "pipeline/runner/commands/look.hpp"
 
+#include "pipeline/contract/errors.hpp"
+
 namespace sediment::runner {
 namespace {
 
@@ -12,15 +14,33 @@ std::string quoted(const std::string& word) {
 
 }  // namespace
 
-const StageRecord* Look::last_of(std::size_t idx) const {
-  const auto found = last.find(stage(idx).name);
-  return found == last.end() ? nullptr : &found->second;
+std::vector<const LookedAt*> Look::named(const std::string& label) const {
+  std::vector<const LookedAt*> found;
+  std::vector<std::string> labels;
+  for (const LookedAt& one : stages) {
+    if (label.empty() || one.label == label) found.push_back(&one);
+    labels.push_back(one.label);
+  }
+  if (found.empty())
+    throw contract::UsageError("unknown stage \"" + label + "\"" + did_you_mean(label, labels));
+  return found;
 }
 
 Look look(const Arguments& arguments) {
-  Look all{open_pipeline(arguments), {}, {}};
-  all.tasks = plan(all.opened.instance, *all.opened.store, arguments.threads);
-  all.last = Workspace(all.opened.instance.out).read_record();
+  Look all{open_config(arguments), {}};
+  for (std::size_t i = 0; i < all.opened.instances.size(); ++i) {
+    const Instance& instance = all.opened.instances[i];
+    const auto last = Workspace(instance.out).read_record().stages;
+    std::vector<PlannedTask> tasks = plan(instance, *all.opened.store, arguments.threads);
+    for (std::size_t s = 0; s < tasks.size(); ++s) {
+      if (tasks[s].state == PlannedTask::State::skipped) continue;
+      const std::string& stage = instance.graph->stages[s].name;
+      const auto record = last.find(stage);
+      all.stages.push_back({instance.name.empty() ? stage : instance.name + '/' + stage, i, s,
+                            std::move(tasks[s]),
+                            record == last.end() ? std::nullopt : std::optional(record->second)});
+    }
+  }
   all.opened.store->memory().save();
   return all;
 }

@@ -17,12 +17,10 @@ namespace {
 using contract::Json;
 using contract::UsageError;
 
-/// The last receipt of a stage in this folder of results.
-Receipt last_receipt(const Look& all, std::size_t idx) {
-  const StageRecord* last = all.last_of(idx);
-  const auto receipt = last == nullptr ? std::nullopt : all.opened.store->receipt(last->key);
-  if (!receipt)
-    throw UsageError(all.stage(idx).name + " has no result yet in " + all.opened.instance.out.string());
+/// The last receipt of a stage in its folder of results.
+Receipt last_receipt(const LookedAt& one, const Store& store) {
+  const auto receipt = one.last ? store.receipt(one.last->key) : std::nullopt;
+  if (!receipt) throw UsageError(one.label + " has no result yet");
   return *receipt;
 }
 
@@ -35,12 +33,12 @@ void print_failure(const StageRecord& last) {
 
 int show_log(const Arguments& arguments) {
   const Look all = look(arguments);
-  const auto idx = static_cast<std::size_t>(all.opened.instance.graph->index_of(arguments.stage));
-  if (const StageRecord* last = all.last_of(idx); last != nullptr && last->state == "failed") {
-    print_failure(*last);
+  const LookedAt& one = *all.named(arguments.stage).front();
+  if (one.last && one.last->state == "failed") {
+    print_failure(*one.last);
     return contract::kDone;
   }
-  const Receipt receipt = last_receipt(all, idx);
+  const Receipt receipt = last_receipt(one, *all.opened.store);
   fmt::print("{}\nmade {} on {} in {:.1f} s ({:.1f} s of cpu, {}), because: {}\n", shell_text(receipt.argv),
              receipt.started, receipt.host, receipt.wall_s, receipt.cpu_s, shown_bytes(receipt.peak_bytes),
              receipt.why);
@@ -51,16 +49,16 @@ int show_log(const Arguments& arguments) {
 
 int accept_stage(const Arguments& arguments) {
   const Look all = look(arguments);
-  const auto idx = static_cast<std::size_t>(all.opened.instance.graph->index_of(arguments.stage));
-  const PlannedTask& task = all.tasks[idx];
+  const LookedAt& one = *all.named(arguments.stage).front();
+  const PlannedTask& task = one.task;
   if (task.hit) throw UsageError(arguments.stage + " is up to date: there is nothing to accept");
   if (!task.key) throw UsageError(arguments.stage + " is " + task.why.text + ": accept or run that first");
   Store& store = *all.opened.store;
-  Receipt receipt = last_receipt(all, idx);
+  Receipt receipt = last_receipt(one, store);
   const auto hit = store.find(receipt.key);
   if (!hit) throw UsageError("the last result of " + arguments.stage + " is lost or damaged");
   Json changed = Json::array();
-  for (const Difference& one : task.why.differences) changed.push_back(one.text());
+  for (const Difference& difference : task.why.differences) changed.push_back(difference.text());
   receipt.accepted = {{"from", receipt.key},
                       {"changed", changed},
                       {"when", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
@@ -71,7 +69,7 @@ int accept_stage(const Arguments& arguments) {
   if (!lock) throw std::runtime_error(arguments.stage + " is being made by another runner");
   store.publish_receipt(receipt);
   store.memory().save();
-  for (const Difference& one : task.why.differences) fmt::print("  {}\n", one.text());
+  for (const Difference& difference : task.why.differences) fmt::print("  {}\n", difference.text());
   fmt::print("{}: its last result counts as right all the same\n", arguments.stage);
   return contract::kDone;
 }

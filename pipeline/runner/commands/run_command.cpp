@@ -7,9 +7,10 @@
 #include <thread>
 
 #include "pipeline/contract/errors.hpp"
-#include "pipeline/runner/commands/closing_table.hpp"
 #include "pipeline/runner/commands/command_table.hpp"
-#include "pipeline/runner/commands/opened_pipeline.hpp"
+#include "pipeline/runner/commands/opened_config.hpp"
+#include "pipeline/runner/execution/closing_table.hpp"
+#include "pipeline/runner/execution/run_record.hpp"
 #include "pipeline/runner/execution/scheduler.hpp"
 #include "pipeline/runner/store/pruning.hpp"
 
@@ -20,35 +21,22 @@ std::string run_id() {
   return fmt::format("{:%Y%m%dT%H%M%SZ}-{}", fmt::gmtime(std::time(nullptr)), getpid());
 }
 
-/// The record of the last run overlaid by this one: of a stage that failed the last good result stays known,
-/// so that a later difference can be explained.
-void record(const Instance& instance, const std::vector<Task>& tasks) {
-  const Workspace workspace(instance.out);
-  auto stages = workspace.read_record();
-  const auto before = stages;
-  for (const Task& task : tasks) {
-    StageRecord& stage = stages[instance.graph->stages[task.stage_idx].name];
-    const bool same = stage.key == task.key && !stage.state.empty();
-    stage.state = name_of(task.outcome);
-    stage.log = task.log;
-    if (task.outcome == Outcome::kept || task.outcome == Outcome::ran) {
-      stage.key = task.key;
-      stage.object = task.object;
-      stage.bytes = task.bytes;
-    }
-    if (task.outcome == Outcome::kept && same) continue;
-    stage.why = task.why;
-    stage.wall_s = task.wall_s;
-    stage.peak_bytes = task.peak_bytes;
-  }
-  if (stages != before) workspace.write_record(stages);
-}
-
 /// Every stage must be able to run at all.
 void check_resources(const Graph& graph, const Amounts& capacity) {
   for (const PlannedStage& stage : graph.stages)
     if (const std::string missing = shortage(stage.resources.amounts, capacity); !missing.empty())
       throw contract::UsageError("stage " + stage.name + ": " + missing);
+}
+
+RunOptions options_of(const Arguments& arguments, const Store& store) {
+  RunOptions options;
+  options.jobs = arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::thread::hardware_concurrency());
+  options.threads = arguments.threads;
+  options.capacity = capacity_of_machine(arguments.resources);
+  options.keep_going = arguments.keep_going;
+  options.check_space = !arguments.no_space_check;
+  options.run = store.root() / "runs" / run_id();
+  return options;
 }
 
 int exit_code(const std::vector<Task>& tasks, bool interrupted) {
@@ -62,31 +50,32 @@ int exit_code(const std::vector<Task>& tasks, bool interrupted) {
 }  // namespace
 
 int run(const Arguments& arguments) {
-  const auto started = std::chrono::steady_clock::now();
+  const auto began = std::chrono::steady_clock::now();
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  };
   Signals signals;
-  OpenedPipeline opened = open_pipeline(arguments);
+  const OpenedConfig opened = open_config(arguments);
   Store& store = *opened.store;
-  for (const PlannedStage& stage : opened.instance.graph->stages)
-    Workspace(opened.instance.out).check(stage.name);
-  RunOptions options;
-  options.jobs = arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::thread::hardware_concurrency());
-  options.threads = arguments.threads;
-  options.capacity = capacity_of_machine(arguments.resources);
-  check_resources(*opened.instance.graph, options.capacity);
-  options.keep_going = arguments.keep_going;
-  options.check_space = !arguments.no_space_check;
-  options.logs = store.root() / "runs" / run_id();
+  const RunOptions options = options_of(arguments, store);
+  for (const Instance& instance : opened.instances) check_resources(*instance.graph, options.capacity);
+  if (opened.points.empty())
+    for (const PlannedStage& stage : opened.instances.front().graph->stages)
+      Workspace(opened.out).check(stage.name);
   store.make(arguments.durable);
   store.remove_dead_attempts();
-  remember_workspace(store, opened.instance.out);
+  remember_workspace(store, opened.out);
+  if (!opened.points.empty()) write_points(opened.points, opened.out);
+
   Display display;
-  const std::vector<Instance> instances{std::move(opened.instance)};
-  Scheduler scheduler(instances, store, options, signals, display);
+  Scheduler scheduler(opened.instances, store, options, signals, display);
   const std::vector<Task> tasks = scheduler.run();
   store.memory().save();
-  record(instances.front(), tasks);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  fmt::print("{}", closing_table(tasks, seconds));
+  const bool all_kept =
+      std::all_of(tasks.begin(), tasks.end(), [](const Task& task) { return task.outcome == Outcome::kept; });
+  if (!all_kept) write_run(options.run, tasks, seconds());
+  record(opened.instances, tasks, all_kept ? "" : options.run.string());
+  fmt::print("{}", closing_table(tasks, seconds()));
   return exit_code(tasks, scheduler.interrupted());
 }
 

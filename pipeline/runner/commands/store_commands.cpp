@@ -20,8 +20,8 @@ std::set<std::string> keys_of(const Arguments& arguments) {
   for (const std::string& config : arguments.keep) {
     Arguments other = arguments;
     other.config = config;
-    for (const PlannedTask& task : look(other).tasks)
-      if (task.key) keys.insert(task.key->id);
+    for (const LookedAt& one : look(other).stages)
+      if (one.task.key) keys.insert(one.task.key->id);
   }
   return keys;
 }
@@ -64,12 +64,10 @@ int prune_store(const Arguments& arguments) {
 
 int pin(const Arguments& arguments) {
   const Look all = look(arguments);
-  const int wanted = arguments.stage.empty() ? -1 : all.opened.instance.graph->index_of(arguments.stage);
-  for (std::size_t i = 0; i < all.tasks.size(); ++i) {
-    if (wanted >= 0 && static_cast<int>(i) != wanted) continue;
-    if (!all.tasks[i].hit) throw UsageError(all.stage(i).name + " has no result now: run it first");
-    set_pinned(*all.opened.store, all.tasks[i].key->id, !arguments.remove);
-    fmt::print("{}: {}\n", all.stage(i).name, arguments.remove ? "no longer pinned" : "pinned");
+  for (const LookedAt* one : all.named(arguments.stage)) {
+    if (!one->task.hit) throw UsageError(one->label + " has no result now: run it first");
+    set_pinned(*all.opened.store, one->task.key->id, !arguments.remove);
+    fmt::print("{}: {}\n", one->label, arguments.remove ? "no longer pinned" : "pinned");
   }
   return contract::kDone;
 }

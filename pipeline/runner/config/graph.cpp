@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "pipeline/contract/errors.hpp"
-#include "pipeline/runner/config/resolve_sources.hpp"
 #include "pipeline/runner/config/resolve_stages.hpp"
 
 namespace sediment::runner {
@@ -88,13 +87,13 @@ Setting setting_from(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     throw UsageError("--set " + text + ": expected stage.parameter=value or source=path");
-  return {text.substr(0, equals), text.substr(equals + 1)};
+  return {text.substr(0, equals), text.substr(equals + 1), "--set "};
 }
 
-Graph resolve(const PipelineFile& pipeline, const std::vector<Setting>& settings, Programs& programs,
-              Violations& violations) {
+Graph resolve(const PipelineFile& pipeline, const std::vector<Setting>& settings, std::vector<Source> sources,
+              Programs& programs, Violations& violations) {
   Graph graph;
-  graph.sources = resolve_sources(pipeline, settings, violations);
+  graph.sources = std::move(sources);
   graph.stages =
       sorted(resolve_stages(pipeline, settings, graph.sources, programs, violations), pipeline, violations);
   return graph;

@@ -15,6 +15,10 @@ namespace sediment::runner {
 struct Setting {
   std::string name;  ///< "source" or "stage.parameter"
   std::string value;
+  std::string said;  ///< where, for what is wrong with it: "--set ", "sweep.yaml:7: "
+
+  /// "--set sor.neighbors=30".
+  std::string text() const { return said + name + '=' + value; }
 };
 
 /// A source with its value: the path a stage is given.
@@ -57,7 +61,8 @@ Setting setting_from(const std::string& text);
 
 /// Checks the pipeline against the description of every stage: names, types, ranges, kinds, roles, cycles.
 /// What is wrong goes to `violations`; the graph may only be used if there is none.
-Graph resolve(const PipelineFile& pipeline, const std::vector<Setting>& settings, Programs& programs,
-              Violations& violations);
+/// The sources are resolved already (resolve_sources.hpp).
+Graph resolve(const PipelineFile& pipeline, const std::vector<Setting>& settings, std::vector<Source> sources,
+              Programs& programs, Violations& violations);
 
 }  // namespace sediment::runner

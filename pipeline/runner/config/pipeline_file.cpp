@@ -1,13 +1,8 @@
 #include "pipeline/runner/config/pipeline_file.hpp"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include "pipeline/contract/errors.hpp"
-#include "pipeline/runner/config/variables.hpp"
 #include "pipeline/runner/config/yaml_mapping.hpp"
 
 namespace sediment::runner {
@@ -95,13 +90,6 @@ StageEntry read_stage(const YAML::Node& key, const YAML::Node& value, Violations
   return stage;
 }
 
-std::string content_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
-  if (!stream || fs::is_directory(file)) throw UsageError("cannot read the pipeline " + file.string());
-  return text;
-}
-
 }  // namespace
 
 fs::path pipeline_file_of(const fs::path& config) {
@@ -115,12 +103,6 @@ PipelineFile read_pipeline(const fs::path& file, Violations& violations) {
       (file.filename() == "pipeline.yaml" ? fs::absolute(file).lexically_normal().parent_path() : file)
           .stem()
           .string();
-  YAML::Node root;
-  try {
-    root = YAML::Load(mark_variables(content_of(file)));
-  } catch (const YAML::ParserException& error) {
-    throw UsageError(file.string() + ':' + std::to_string(error.mark.line + 1) + ": " + error.msg);
-  }
   const auto sources = [&](const YAML::Node& key, const YAML::Node& value) {
     Mapping("sources", violations)
         .any([&](const auto& k, const auto& v) { pipeline.sources.push_back(read_source(k, v, violations)); })
@@ -131,7 +113,7 @@ PipelineFile read_pipeline(const fs::path& file, Violations& violations) {
         .any([&](const auto& k, const auto& v) { pipeline.stages.push_back(read_stage(k, v, violations)); })
         .read(value, line_of(key));
   };
-  Mapping("pipeline", violations).key("sources", sources).key("stages", stages).read(root, 1);
+  Mapping("pipeline", violations).key("sources", sources).key("stages", stages).read(load_yaml(file), 1);
   if (pipeline.stages.empty()) violations.add(1, "the pipeline has no stages");
   return pipeline;
 }

@@ -47,12 +47,22 @@ fs::path given_path(const SourceEntry& entry, const PipelineFile& pipeline,
 
 }  // namespace
 
+void check_source_settings(const PipelineFile& pipeline, const std::vector<Setting>& settings,
+                           Violations& violations) {
+  std::vector<std::string> names;
+  for (const SourceEntry& entry : pipeline.sources) names.push_back(entry.name);
+  for (const Setting& setting : settings)
+    if (setting.name.find('.') == std::string::npos &&
+        std::find(names.begin(), names.end(), setting.name) == names.end())
+      violations.add_call(setting.text() + ": unknown source \"" + setting.name + "\"" +
+                          did_you_mean(setting.name, names) +
+                          "; parameters are set as stage.parameter=value");
+}
+
 std::vector<Source> resolve_sources(const PipelineFile& pipeline, const std::vector<Setting>& settings,
                                     Violations& violations) {
   std::vector<Source> sources;
-  std::vector<std::string> names;
   for (const SourceEntry& entry : pipeline.sources) {
-    names.push_back(entry.name);
     const auto& all = kinds();
     if (!entry.kind.empty() && std::find(all.begin(), all.end(), entry.kind) == all.end())
       violations.add(entry.line, "source " + entry.name + ": unknown kind \"" + entry.kind + "\"" +
@@ -68,12 +78,6 @@ std::vector<Source> resolve_sources(const PipelineFile& pipeline, const std::vec
     }
     sources.push_back(std::move(source));
   }
-  for (const Setting& setting : settings)
-    if (setting.name.find('.') == std::string::npos &&
-        std::find(names.begin(), names.end(), setting.name) == names.end())
-      violations.add_call("--set " + setting.name + '=' + setting.value + ": unknown source \"" +
-                          setting.name + "\"" + did_you_mean(setting.name, names) +
-                          "; parameters are set as stage.parameter=value");
   return sources;
 }
 

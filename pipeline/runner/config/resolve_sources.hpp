@@ -9,4 +9,8 @@ namespace sediment::runner {
 std::vector<Source> resolve_sources(const PipelineFile& pipeline, const std::vector<Setting>& settings,
                                     Violations& violations);
 
+/// Reports settings that name no source and no parameter.
+void check_source_settings(const PipelineFile& pipeline, const std::vector<Setting>& settings,
+                           Violations& violations);
+
 }  // namespace sediment::runner

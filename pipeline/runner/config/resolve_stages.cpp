@@ -139,9 +139,8 @@ void resolve_params(Resolution& all, const StageEntry& entry, PlannedStage& stag
     });
   for (const Setting& setting : all.settings)
     if (setting.name.starts_with(entry.name + '.'))
-      assign(setting.name.substr(entry.name.size() + 1), setting.value, [&](const std::string& text) {
-        all.violations.add_call("--set " + setting.name + '=' + setting.value + ": " + text);
-      });
+      assign(setting.name.substr(entry.name.size() + 1), setting.value,
+             [&](const std::string& text) { all.violations.add_call(setting.text() + ": " + text); });
 }
 
 void check_settings(Resolution& all) {
@@ -150,8 +149,8 @@ void check_settings(Resolution& all) {
     const std::size_t dot = setting.name.find('.');
     const std::string stage = setting.name.substr(0, dot);
     if (dot != std::string::npos && std::find(names.begin(), names.end(), stage) == names.end())
-      all.violations.add_call("--set " + setting.name + '=' + setting.value + ": unknown stage \"" + stage +
-                              "\"" + did_you_mean(stage, names));
+      all.violations.add_call(setting.text() + ": unknown stage \"" + stage + "\"" +
+                              did_you_mean(stage, names));
   }
 }
 

@@ -1,8 +1,25 @@
 #include "pipeline/runner/config/yaml_mapping.hpp"
 
+#include <fstream>
+#include <iterator>
 #include <set>
 
+#include "pipeline/contract/errors.hpp"
+#include "pipeline/runner/config/variables.hpp"
+
 namespace sediment::runner {
+
+YAML::Node load_yaml(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (!stream || std::filesystem::is_directory(file))
+    throw contract::UsageError("cannot read the configuration " + file.string());
+  try {
+    return YAML::Load(mark_variables(text));
+  } catch (const YAML::ParserException& error) {
+    throw contract::UsageError(file.string() + ':' + std::to_string(error.mark.line + 1) + ": " + error.msg);
+  }
+}
 
 int line_of(const YAML::Node& node) {
   return node.Mark().line + 1;

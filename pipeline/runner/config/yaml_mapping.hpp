@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -10,6 +11,9 @@
 #include "pipeline/runner/config/violations.hpp"
 
 namespace sediment::runner {
+
+/// The document in a file, its variables marked (variables.hpp). Throws contract::UsageError with the line.
+YAML::Node load_yaml(const std::filesystem::path& file);
 
 /// Line of a node, from 1.
 int line_of(const YAML::Node& node);

@@ -29,6 +29,7 @@ class Attempt {
   Attempt& operator=(const Attempt&) = delete;
 
   pid_t pid() const { return pid_; }
+  std::chrono::steady_clock::time_point started() const { return started_; }
   double seconds() const;
   std::filesystem::path log() const { return folder_ / "log"; }
   /// The last line the stage said, for a display.

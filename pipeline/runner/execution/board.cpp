@@ -32,7 +32,7 @@ std::vector<std::filesystem::path> Board::inputs_of(const Task& task) const {
 
 const StageRecord* Board::last(const Task& task) {
   const auto [record, fresh] = records_.try_emplace(task.instance_idx);
-  if (fresh) record->second = Workspace(instance_of(task).out).read_record();
+  if (fresh) record->second = Workspace(instance_of(task).out).read_record().stages;
   const auto stage = record->second.find(stage_of(task).name);
   return stage == record->second.end() ? nullptr : &stage->second;
 }

@@ -1,11 +1,14 @@
 #include "pipeline/runner/execution/crew.hpp"
 
+#include <algorithm>
+
 namespace sediment::runner {
 
-const Attempt& Crew::add(Member member) {
+const Crew::Member& Crew::add(Member member) {
+  const auto has = [&](const Member& other) { return other.lane == member.lane; };
+  while (std::any_of(members_.begin(), members_.end(), has)) ++member.lane;
   free_.take(member.taken);
-  members_.push_back(std::move(member));
-  return *members_.back().attempt;
+  return members_.emplace_back(std::move(member));
 }
 
 std::optional<Crew::Ended> Crew::take_ended() {

@@ -18,6 +18,7 @@ class Crew {
     std::size_t task;
     Amounts taken;
     std::unique_ptr<Attempt> attempt;
+    int lane = 0;  ///< set by add(): the lowest that nobody else has
   };
   struct Ended {
     Member member;
@@ -27,7 +28,7 @@ class Crew {
   bool empty() const { return members_.empty(); }
   bool is_full() const { return members_.size() >= jobs_; }
   bool has_room_for(const Amounts& wanted) const { return !is_full() && free_.suffice(wanted); }
-  const Attempt& add(Member member);
+  const Member& add(Member member);
   /// One that has ended, with all its processes; its resources are free again.
   std::optional<Ended> take_ended();
   void signal(int signal);

@@ -14,6 +14,7 @@ struct Instance {
   std::string name;  ///< empty if it is the only one
   std::shared_ptr<const Graph> graph;
   std::filesystem::path out;
+  std::vector<std::filesystem::path> source_paths;  ///< of each source of the graph, empty if it is not given
   std::vector<std::string> source_ids;  ///< content id of each source of the graph, empty if it is not given
   std::vector<bool> selected;  ///< stages that may be run; the others must be in the store where needed
   std::vector<bool> needed;    ///< selected ones and all they read from

@@ -39,7 +39,7 @@ std::vector<fs::path> input_paths(const Instance& instance, std::size_t stage_id
   for (const Input& input : instance.graph->stages[stage_idx].inputs) {
     const auto stage = static_cast<std::size_t>(input.stage_idx);
     if (input.source_idx >= 0)
-      paths.push_back(instance.graph->sources[static_cast<std::size_t>(input.source_idx)].path);
+      paths.push_back(instance.source_paths[static_cast<std::size_t>(input.source_idx)]);
     else
       paths.push_back(objects[stage].empty() ? instance.out / instance.graph->stages[stage].name
                                              : store.object_path(objects[stage]));
@@ -49,7 +49,7 @@ std::vector<fs::path> input_paths(const Instance& instance, std::size_t stage_id
 
 std::vector<PlannedTask> plan(const Instance& instance, Store& store, int threads) {
   const auto& stages = instance.graph->stages;
-  const auto last = Workspace(instance.out).read_record();
+  const auto last = Workspace(instance.out).read_record().stages;
   std::vector<PlannedTask> tasks(stages.size());
   std::vector<std::string> objects(stages.size());
   for (std::size_t i = 0; i < stages.size(); ++i) {

@@ -122,8 +122,10 @@ void Scheduler::start(Waiting& waiting, KeyLock lock) {
   auto attempt = std::make_unique<Attempt>(store_, std::move(lock), std::move(waiting.key), stage,
                                            board_.inputs_of(task), threads, task.why);
   const StageRecord* last = board_.last(task);
-  const Attempt& started = crew_.add({waiting.task, std::move(taken), std::move(attempt)});
-  display_.started(task, started, last == nullptr ? 0 : last->wall_s);
+  const Crew::Member& member = crew_.add({waiting.task, std::move(taken), std::move(attempt)});
+  task.lane = member.lane;
+  task.started_s = std::chrono::duration<double>(member.attempt->started() - began_).count();
+  display_.started(task, *member.attempt, last == nullptr ? 0 : last->wall_s);
 }
 
 void Scheduler::wait() {
@@ -172,11 +174,11 @@ bool Scheduler::retries(const Crew::Ended& ended, const std::string& what) {
 /// Keeps the log of a failed attempt.
 std::string Scheduler::save_log(const Task& task, const std::filesystem::path& log) const {
   std::error_code error;
-  std::filesystem::create_directories(options_.logs, error);
+  std::filesystem::create_directories(options_.run, error);
   std::string name = task.label;
   std::replace(name.begin(), name.end(), '/', '.');
   if (task.retries > 0) name += '.' + std::to_string(task.retries);
-  const std::filesystem::path saved = options_.logs / (name + ".log");
+  const std::filesystem::path saved = options_.run / (name + ".log");
   std::filesystem::rename(log, saved, error);
   return error ? "" : saved.string();
 }

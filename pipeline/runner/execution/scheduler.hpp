@@ -16,8 +16,8 @@ struct RunOptions {
   int threads = 0;   ///< given to each stage that declares no cpus, 0 = all cores
   Amounts capacity;  ///< of the machine
   bool keep_going = false;
-  bool check_space = true;     ///< refuse to begin if the last results would not fit on the disk
-  std::filesystem::path logs;  ///< folder for the logs of failed stages
+  bool check_space = true;    ///< refuse to begin if the last results would not fit on the disk
+  std::filesystem::path run;  ///< folder for the logs of failed stages
 };
 
 /// Brings every selected stage of the instances up to date. One thread does it all: it decides, starts, waits
@@ -60,6 +60,7 @@ class Scheduler {
   std::deque<Waiting> ready_;
   std::unordered_map<std::string, std::vector<std::size_t>>
       followers_;  ///< by key in work: others that want it
+  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   bool space_checked_ = false;
   bool locked_out_ = false;  ///< another runner holds a lock we want
   bool stopping_ = false;    ///< something failed: start nothing more

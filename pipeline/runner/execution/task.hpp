@@ -24,7 +24,9 @@ struct Task {
   double wall_s = 0, cpu_s = 0;
   int retries = 0;  ///< attempts that failed before
   std::uint64_t bytes = 0, peak_bytes = 0;
-  int waits_for = 0;  ///< stages before it that have not ended
+  double started_s = 0;  ///< since the run began
+  int lane = -1;         ///< in a picture of the run; no two stages of a lane ran at the same time
+  int waits_for = 0;     ///< stages before it that have not ended
   std::vector<std::size_t> dependents;
 };
 

@@ -1,12 +1,13 @@
 #include "pipeline/runner/execution/workspace.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 
-#include "pipeline/contract/digest.hpp"
 #include "pipeline/contract/errors.hpp"
 
 namespace sediment::runner {
@@ -16,6 +17,8 @@ namespace fs = std::filesystem;
 using contract::Json;
 
 constexpr const char* kFormat = "sediment-run 1";
+/// Stands within the first bytes of run.json.
+constexpr std::string_view kIdKey = "\"id\": \"";
 
 std::string target_of(const fs::path& link) {
   char target[4096];
@@ -35,10 +38,12 @@ void Workspace::check(const std::string& stage) const {
 void Workspace::link(const std::string& stage, const std::string& object, const Store& store) const {
   const fs::path place = folder_ / stage;
   const fs::path absolute = store.object_path(object);
-  const bool inside = store.root().native().starts_with(folder_.native() + '/');
-  const std::string target =
-      inside ? absolute.native().substr(folder_.native().size() + 1) : absolute.native();
+  // The store of a sweep lies in the folder above that of the instance.
+  const fs::path above = store.root().parent_path();
+  const bool together = (folder_.native() + '/').starts_with(above.native() + '/');
+  const std::string target = (together ? absolute.lexically_relative(folder_) : absolute).native();
   if (target_of(place) == target) return;
+  check(stage);
   fs::create_directories(folder_);
   const fs::path fresh = folder_ / ('.' + stage + ".link." + std::to_string(getpid()));
   fs::remove(fresh);
@@ -46,32 +51,50 @@ void Workspace::link(const std::string& stage, const std::string& object, const 
   fs::rename(fresh, place);
 }
 
-std::map<std::string, StageRecord> Workspace::read_record() const try {
-  std::map<std::string, StageRecord> stages;
+RunRecord Workspace::read_record() const try {
+  RunRecord record;
   std::ifstream stream(folder_ / "run.json");
-  if (!stream) return stages;
+  if (!stream) return record;
   const Json json = Json::parse(stream);
-  if (json.at("format") != kFormat) return stages;
+  if (json.at("format") != kFormat) return record;
+  record.id = json.at("id");
+  record.run = json.at("run");
+  record.order = json.at("order").get<std::vector<std::string>>();
   for (const auto& [name, one] : json.at("stages").items())
-    stages[name] = {one.at("key"), one.at("object"), one.at("state"), one.at("why"),
-                    one.at("log"), one.at("wall_s"), one.at("bytes"), one.at("peak_bytes")};
-  return stages;
+    record.stages[name] = {one.at("key"), one.at("object"), one.at("state"), one.at("why"),
+                           one.at("log"), one.at("wall_s"), one.at("bytes"), one.at("peak_bytes")};
+  return record;
 } catch (const std::exception&) {
-  return {};  // the record explains; nothing depends on it
+  return {};
 }
 
-void Workspace::write_record(const std::map<std::string, StageRecord>& stages) const {
+std::string Workspace::recorded() const {
+  char begin[160];
+  const int file = open((folder_.native() + "/run.json").c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return "";
+  const ssize_t count = read(file, begin, sizeof begin);
+  close(file);
+  const std::string_view text(begin, count < 0 ? 0 : static_cast<std::size_t>(count));
+  const std::size_t id = text.find(kIdKey);
+  const std::size_t end = id == text.npos ? id : text.find('"', id + kIdKey.size());
+  return end == text.npos ? "" : std::string(text.substr(id + kIdKey.size(), end - id - kIdKey.size()));
+}
+
+void Workspace::write_record(const RunRecord& record) const {
   nlohmann::ordered_json json;
   json["format"] = kFormat;
+  json["id"] = record.id;
+  json["run"] = record.run;
+  json["order"] = record.order;
   json["stages"] = nlohmann::ordered_json::object();
-  for (const auto& [name, one] : stages)
+  for (const auto& [name, one] : record.stages)
     json["stages"][name] = {
         {"state", one.state}, {"key", one.key},       {"object", one.object}, {"why", one.why},
         {"log", one.log},     {"wall_s", one.wall_s}, {"bytes", one.bytes},   {"peak_bytes", one.peak_bytes}};
   fs::create_directories(folder_);
   const fs::path fresh = folder_ / (".run.json." + std::to_string(getpid()));
   std::ofstream stream(fresh, std::ios::binary);
-  stream << json.dump(1) << '\n';
+  stream << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
   stream.close();
   if (!stream) throw std::runtime_error("cannot write " + fresh.string() + ": " + std::strerror(errno));
   fs::rename(fresh, folder_ / "run.json");
