@@ -10,6 +10,7 @@
 #include <ctime>
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "pipeline/artifacts/image_file.hpp"
 #include "tools/synthesize/color_sensor.hpp"
@@ -66,8 +67,9 @@ void parts(const Recording& recording, const std::filesystem::path& folder) {
 }  // namespace
 
 int main() {
-  char name[] = "/tmp/benchmark-synthesize-XXXXXX";
-  const std::filesystem::path folder = mkdtemp(name);
+  std::string name = (std::filesystem::temp_directory_path() / "benchmark-synthesize-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) return 1;
+  const std::filesystem::path folder = name;
   constexpr int kFrames = 90;
   const Recording recording({.scene = "walking", .frames = kFrames});
   parts(recording, folder);
