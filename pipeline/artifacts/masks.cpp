@@ -15,10 +15,12 @@ std::filesystem::path image_of(const std::filesystem::path& folder, const std::s
 }
 
 Json to_json(const Instance& instance) {
-  return {{"id", instance.id},
-          {"class", instance.class_name},
-          {"score", instance.score},
-          {"box", instance.box_px}};
+  Json json{{"id", instance.id},
+            {"class", instance.class_name},
+            {"score", instance.score},
+            {"box", instance.box_px}};
+  if (instance.speed_m_s) json["speed_m_s"] = *instance.speed_m_s;
+  return json;
 }
 
 Instance instance_from(const Json& json) {
@@ -27,6 +29,7 @@ Instance instance_from(const Json& json) {
   instance.class_name = json.at("class").get<std::string>();
   instance.score = json.value("score", 1.0);
   if (json.contains("box")) instance.box_px = json["box"].get<std::array<double, 4>>();
+  if (json.contains("speed_m_s")) instance.speed_m_s = json["speed_m_s"].get<double>();
   return instance;
 }
 
@@ -73,9 +76,11 @@ void MasksWriter::write(const std::string& stamp, const InstanceMask& mask) {
     throw std::runtime_error("frame " + stamp + ": its masks are written twice");
 }
 
-void MasksWriter::finish() {
+void MasksWriter::finish(const std::function<void(const std::string&, Instance&)>& amend) {
   std::vector<Json> frames;
-  for (const auto& [stamp, instances] : frames_) {
+  for (auto& [stamp, instances] : frames_) {
+    if (amend)
+      for (Instance& instance : instances) amend(stamp, instance);
     Json list = Json::array();
     for (const Instance& instance : instances) list.push_back(to_json(instance));
     frames.push_back({{"stamp", stamp}, {"instances", std::move(list)}});

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct Instance {
   std::string class_name;  ///< as in the network's table, e.g. "person"
   double score = 1;        ///< 0 .. 1
   std::array<double, 4> box_px{};  ///< left top right bottom
+  std::optional<double> speed_m_s{};  ///< against what stands still, across the view; if its producer knows it
 };
 
 /// The instances of one frame.

@@ -36,7 +36,7 @@ struct FuseResult {
 };
 
 /// Fuses the selected frames and writes the `cloud` artifact into `out`. Frames are read and back-projected
-/// in parallel and appended in their order; at most `frames_in_flight` are in memory at a time. `on_frames`
+/// in parallel and appended in their order; at most `frames_in_flight` are in memory at a time. `on_frame`
 /// is told the number of frames once and returns what is called after each. Throws std::runtime_error that
 /// names file and frame, also if there is no point at all: then it says where they went.
 FuseResult fuse_sequence(const Sequence& sequence, const Sources& sources, const LabelTable& labels,

@@ -24,6 +24,18 @@ struct Touch {
   }
 };
 
+/// The test and the picture of one frame, as the paper has it.
+struct Classified : TouchedFrame {
+  cv::Mat dynamic;
+};
+
+Classified classify(const InstanceMask& mask, const cv::Mat& depth, double depth_scale,
+                    const LabelTable& labels, const TouchParameters& parameters) {
+  Classified frame{find_touched(mask, depth, depth_scale, labels, parameters), {}};
+  frame.dynamic = paint_dynamic(mask.ids, frame.prior_dynamic_ids, frame.touched_ids);
+  return frame;
+}
+
 int count(const cv::Mat& mask, int value) {
   return cv::countNonZero(mask == value);
 }
@@ -32,24 +44,23 @@ int count(const cv::Mat& mask, int value) {
 
 TEST_CASE("a chair at the depth of the person beside it becomes non-prior dynamic") {
   const Touch touch(0.1);
-  const ClassifiedFrame frame = classify(touch.mask, touch.depth, kScale, kLabels, {});
+  const Classified frame = classify(touch.mask, touch.depth, kScale, kLabels, {});
   CHECK(count(frame.dynamic, kPriorDynamic) == 100);
   CHECK(count(frame.dynamic, kNonPriorDynamic) == 100);
-  CHECK(frame.dynamic_pixels == 200);
   REQUIRE(frame.pairs.size() == 1);
   CHECK(frame.pairs[0].interacting);
   CHECK(frame.pairs[0].mean_depth_difference_m == Approx(0.1));
   CHECK(frame.pairs[0].pixel_pairs == test::brute_force(touch.mask.ids, touch.depth, 1, 2, 6).pixel_pairs);
-  CHECK(frame.prior_dynamic == 1);
-  CHECK(frame.non_prior_dynamic == 1);
+  CHECK(frame.prior_dynamic_ids == std::vector{1});
+  CHECK(frame.touched_ids == std::set{2});
 }
 
 TEST_CASE("a chair half a metre behind the person stays static, and so does one at exactly the threshold") {
   for (const double apart_m : {0.5, 0.25}) {
     const Touch touch(apart_m);
-    Parameters parameters;
+    TouchParameters parameters;
     parameters.threshold_m = 0.25;
-    const ClassifiedFrame frame = classify(touch.mask, touch.depth, kScale, kLabels, parameters);
+    const Classified frame = classify(touch.mask, touch.depth, kScale, kLabels, parameters);
     CHECK(count(frame.dynamic, kNonPriorDynamic) == 0);
     CHECK_FALSE(frame.pairs.at(0).interacting);
   }
@@ -60,16 +71,16 @@ TEST_CASE("the chair touched by the second of two persons is found, whoever touc
   touch.mask.ids(cv::Rect(32, 5, 5, 10)) = 3;
   touch.depth(cv::Rect(32, 5, 5, 10)) = kScale * 3;
   touch.mask.instances.push_back({3, "person"});
-  const ClassifiedFrame frame = classify(touch.mask, touch.depth, kScale, kLabels, {});
+  const Classified frame = classify(touch.mask, touch.depth, kScale, kLabels, {});
   CHECK(frame.pairs.size() == 2);
-  CHECK(frame.non_prior_dynamic == 1);
+  CHECK(frame.touched_ids == std::set{2});
   CHECK(count(frame.dynamic, kNonPriorDynamic) == 100);
 }
 
 TEST_CASE("without depth there is no pair and nothing is set in motion, but the person stays masked") {
   Touch touch(0);
   touch.depth = 0;
-  const ClassifiedFrame frame = classify(touch.mask, touch.depth, kScale, kLabels, {});
+  const Classified frame = classify(touch.mask, touch.depth, kScale, kLabels, {});
   CHECK(frame.pairs.empty());
   CHECK(count(frame.dynamic, kPriorDynamic) == 100);
   CHECK(count(frame.dynamic, kNonPriorDynamic) == 0);
@@ -77,9 +88,9 @@ TEST_CASE("without depth there is no pair and nothing is set in motion, but the 
 
 TEST_CASE("too few pairs decide nothing") {
   const Touch touch(0);
-  Parameters parameters;
+  TouchParameters parameters;
   parameters.min_pairs = 1000000;
-  const ClassifiedFrame frame = classify(touch.mask, touch.depth, kScale, kLabels, parameters);
+  const Classified frame = classify(touch.mask, touch.depth, kScale, kLabels, parameters);
   CHECK(frame.pairs.at(0).pixel_pairs > 0);
   CHECK_FALSE(frame.pairs[0].interacting);
   CHECK(count(frame.dynamic, kNonPriorDynamic) == 0);
@@ -88,7 +99,7 @@ TEST_CASE("too few pairs decide nothing") {
 TEST_CASE("a class that the table does not know is prior static and is named") {
   Touch touch(0);
   touch.mask.instances[1].class_name = "hoverboard";
-  const ClassifiedFrame frame = classify(touch.mask, touch.depth, kScale, kLabels, {});
+  const Classified frame = classify(touch.mask, touch.depth, kScale, kLabels, {});
   CHECK(frame.unlisted == std::vector<std::string>{"hoverboard"});
   CHECK(count(frame.dynamic, kNonPriorDynamic) == 100);
 }
@@ -97,7 +108,7 @@ TEST_CASE("the floor under a person's feet is not set in motion") {
   Touch touch(0);
   touch.mask.instances[1].class_name = "floor";
   CHECK(count(classify(touch.mask, touch.depth, kScale, kLabels, {}).dynamic, kNonPriorDynamic) == 0);
-  Parameters everything_moves;
+  TouchParameters everything_moves;
   everything_moves.immovable.clear();
   CHECK(count(classify(touch.mask, touch.depth, kScale, kLabels, everything_moves).dynamic,
               kNonPriorDynamic) == 100);
@@ -111,7 +122,7 @@ TEST_CASE("no instance, one person alone and a mask over the whole image are all
   InstanceMask alone = none;
   alone.ids = cv::Mat(20, 40, CV_16UC1, cv::Scalar(7));
   alone.instances = {{7, "person"}};
-  const ClassifiedFrame full = classify(alone, depth, kScale, kLabels, {});
+  const Classified full = classify(alone, depth, kScale, kLabels, {});
   CHECK(count(full.dynamic, kPriorDynamic) == 800);
   CHECK(full.pairs.empty());
 
