@@ -3,10 +3,16 @@
 #include <cmath>
 
 namespace sediment {
+namespace {
+
+constexpr float kOneWayTrust = 0.25F;
+
+}  // namespace
 
 PixelTrails start_trails(const cv::Mat& depth, int step_px) {
   PixelTrails trails{
-      step_px, (depth.cols + step_px - 1) / step_px, (depth.rows + step_px - 1) / step_px, {}, {}, {}, {}};
+      step_px, (depth.cols + step_px - 1) / step_px, (depth.rows + step_px - 1) / step_px, {}, {}, {}, {},
+      {}};
   const std::size_t size = static_cast<std::size_t>(trails.columns) * trails.rows;
   trails.u.reserve(size);
   trails.v.reserve(size);
@@ -20,6 +26,7 @@ PixelTrails start_trails(const cv::Mat& depth, int step_px) {
       trails.depth.push_back(depth.at<std::uint16_t>(y, x));
     }
   trails.valid.assign(size, 1);
+  trails.trust.assign(size, 1);
   return trails;
 }
 
@@ -33,11 +40,11 @@ void follow(PixelTrails& trails, const FlowField& flow, const FlowField& reverse
     const cv::Point2f moved = flow.at(trails.u[i], trails.v[i]);
     trails.u[i] += moved.x;
     trails.v[i] += moved.y;
-    if (!(trails.u[i] >= 0 && trails.u[i] <= last_u && trails.v[i] >= 0 && trails.v[i] <= last_v) ||
-        !is_mutual(moved, reverse.at(trails.u[i], trails.v[i]))) {
+    if (!(trails.u[i] >= 0 && trails.u[i] <= last_u && trails.v[i] >= 0 && trails.v[i] <= last_v)) {
       trails.valid[i] = 0;
       continue;
     }
+    if (!is_mutual(moved, reverse.at(trails.u[i], trails.v[i]))) trails.trust[i] *= kOneWayTrust;
     const auto seen = trails.nearest<std::uint16_t>(depth, i);
     if (seen == 0) continue;
     const float before = trails.depth[i], change = std::abs(static_cast<float>(seen) - before);

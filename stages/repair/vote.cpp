@@ -83,11 +83,13 @@ class Election {
       ballot_of_id[static_cast<std::size_t>(instance.id)] = &ballot;
     }
     for (Ballot* ballot : open)
-      for (std::size_t i = 0; i < trails.size(); ++i) ballot->weights[i] += trails.valid[i] ? weight : 0;
+      for (std::size_t i = 0; i < trails.size(); ++i)
+        ballot->weights[i] += trails.valid[i] ? weight * trails.trust[i] : 0;
     for (std::size_t i = 0; i < trails.size() && !open.empty(); ++i) {
       if (!trails.valid[i]) continue;
       const auto id = trails.nearest<std::uint16_t>(other.detections.ids, i);
-      if (id < ballot_of_id.size() && ballot_of_id[id]) ballot_of_id[id]->votes[i] += weight;
+      if (id < ballot_of_id.size() && ballot_of_id[id])
+        ballot_of_id[id]->votes[i] += weight * trails.trust[i];
     }
   }
 
