@@ -19,7 +19,7 @@ struct Track {
 };
 
 struct LinkParameters {
-  int max_gap = 12;  ///< frames that an object may go unseen and keep its identity
+  int max_gap = 0;  ///< frames that an object may go unseen and keep its identity
   double min_overlap =
       0.3;  ///< intersection over union with the object's earlier mask, carried along by the flow
   double min_overlap_other_class = 0.5;  ///< the same for a detection of another class

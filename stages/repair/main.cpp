@@ -15,15 +15,15 @@ int main(int argc, char** argv) {
                        "label table (YAML) that says which classes move by themselves; default: built in");
   stage.writes("masks", contract::kind::kMasks,
                "instances with an id, a class and a speed through the sequence");
-  stage.tunes("max_gap", parameters.max_gap, "frames over which a missed detection is repaired, 0: none is",
-              {0, 100});
-  stage.tunes("neighbors", parameters.neighbors, "frames on either side that vote on each mask, 0: none",
+  stage.tunes("max_gap", parameters.vote.max_gap,
+              "frames over which a missed detection is repaired, 0: none is", {0, 100});
+  stage.tunes("neighbors", parameters.vote.neighbors, "frames on either side that vote on each mask, 0: none",
               {0, 20});
-  stage.tunes("min_detections", parameters.min_detections,
+  stage.tunes("min_detections", parameters.confirm.min_detections,
               "an object seen less often within max_gap is false if its neighbours contradict it, 1: never",
               {1, 100});
-  stage.tunes("snap_px", parameters.snap_px,
-              "how far outlines move to edges of depth and colour, 0: they stay", {0, 50});
+  stage.tunes("snap_px", parameters.snap.radius_px,
+              "neighbourhood in which outlines move to edges of depth and colour, 0: they stay", {0, 50});
   stage.tunes("speeds", parameters.speeds, "measure how fast each instance moves");
   stage.tunes("longest_pause_s", parameters.longest_pause_s,
               "frames further apart know nothing of each other", {0, 10});

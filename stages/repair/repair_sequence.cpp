@@ -7,11 +7,8 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "stages/repair/confirm.hpp"
 #include "stages/repair/link.hpp"
-#include "stages/repair/snap.hpp"
 #include "stages/repair/speed.hpp"
-#include "stages/repair/vote.hpp"
 
 namespace sediment::repair {
 namespace {
@@ -38,7 +35,7 @@ class Repair {
         on_frame_(on_frame),
         rays_(rays_of(sequence.camera())),
         depth_scale_(sequence.camera().depth_scale),
-        reach_(static_cast<std::size_t>(std::max({parameters.max_gap, parameters.neighbors, 1}))),
+        reach_(static_cast<std::size_t>(std::max({parameters.vote.max_gap, parameters.vote.neighbors, 1}))),
         results_(sequence.size()) {}
 
   Counts run() {
@@ -46,7 +43,7 @@ class Repair {
       const std::size_t end = std::min(begin + kBatch, sequence_.size());
       read(begin, end);
       for (std::size_t i = begin; i < end; ++i)
-        link(clip_, i, depth_scale_, {.max_gap = parameters_.max_gap}, tracks_);
+        link(clip_, i, depth_scale_, {.max_gap = parameters_.vote.max_gap}, tracks_);
       if (tracks_.size() > kMostTracks)
         throw std::runtime_error("more than 65534 objects: the detections do not hold together");
       confirm_until(end == sequence_.size() ? end : end - std::min(end, reach_));
@@ -93,8 +90,7 @@ class Repair {
 
   void confirm_until(std::size_t end) {
     tbb::parallel_for(confirmed_, std::max(confirmed_, end), [&](std::size_t i) {
-      confirm(clip_, i, depth_scale_, parameters_.max_gap, {.min_detections = parameters_.min_detections},
-              tracks_);
+      confirm(clip_, i, depth_scale_, parameters_.vote.max_gap, parameters_.confirm, tracks_);
     });
     confirmed_ = std::max(confirmed_, end);
   }
@@ -108,11 +104,9 @@ class Repair {
   }
 
   void finish_frame(const ClipFrame& frame) {
-    const VoteParameters votes{.max_gap = parameters_.max_gap, .neighbors = parameters_.neighbors};
-    std::vector<SoftMask> soft = vote(clip_, frame.frame_idx, depth_scale_, votes,
+    std::vector<SoftMask> soft = vote(clip_, frame.frame_idx, depth_scale_, parameters_.vote,
                                       [&](int track) { return may_appear(track, frame.frame_idx); });
-    for (SoftMask& mask : soft)
-      snap(mask, frame.depth, frame.color, depth_scale_, {.radius_px = parameters_.snap_px});
+    for (SoftMask& mask : soft) snap(mask, frame.depth, frame.color, depth_scale_, parameters_.snap);
     InstanceMask mask = harden(soft, frame.color.size());
     FrameResult& result = results_[frame.frame_idx];
     if (parameters_.speeds && !frame.to_next.empty())
@@ -136,7 +130,7 @@ class Repair {
     if (moves_by_itself(track)) return true;
     const auto& frames = tracks_[static_cast<std::size_t>(track)].frames;
     const auto after = std::upper_bound(frames.begin(), frames.end(), frame_idx);
-    const auto gap = static_cast<std::size_t>(parameters_.max_gap);
+    const auto gap = static_cast<std::size_t>(parameters_.vote.max_gap);
     return after != frames.end() && after != frames.begin() && *after <= frame_idx + gap &&
            *std::prev(after) + gap >= frame_idx;
   }

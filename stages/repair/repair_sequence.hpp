@@ -5,15 +5,17 @@
 #include "pipeline/artifacts/masks.hpp"
 #include "pipeline/artifacts/sequence.hpp"
 #include "pipeline/scene/labels.hpp"
+#include "stages/repair/confirm.hpp"
+#include "stages/repair/snap.hpp"
+#include "stages/repair/vote.hpp"
 
 namespace sediment::repair {
 
 struct Parameters {
-  int max_gap = 12;               ///< frames
-  int neighbors = 2;              ///< frames
-  int min_detections = 2;         ///< of one object within max_gap frames
-  int snap_px = 8;                ///< pixels
-  bool speeds = true;             ///< whether to measure speeds
+  VoteParameters vote;  ///< its max_gap holds for linking and confirming too
+  ConfirmParameters confirm;
+  SnapParameters snap;
+  bool speeds = true;             ///< whether to measure them
   double longest_pause_s = 0.25;  ///< frames further apart in time know nothing of each other
 };
 

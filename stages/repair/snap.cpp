@@ -11,9 +11,11 @@ namespace {
 
 constexpr double kColorSigma = 18;     ///< grey levels, over the three channels together
 constexpr float kWithoutDepth = 0.3F;  ///< weight of any depth for a pixel that has none: colour decides
-constexpr float kLeastWeight = 0.3F;   ///< fewer like-minded neighbours than this decide nothing
-constexpr int kTapStep_px = 2;         ///< every second neighbour is enough: the result is smooth
-constexpr double kReach = 3;           ///< sigmas behind which a weight is 0
+constexpr float kLeastColor =
+    0.15F;  ///< of quite another colour: surfaces have textures, and depth says more
+constexpr float kLeastWeight = 0.3F;  ///< fewer like-minded neighbours than this decide nothing
+constexpr int kTapsPerRadius = 5;     ///< neighbours looked at: the result is smooth, so not each of them
+constexpr double kReach = 3;          ///< sigmas behind which a weight is 0
 
 /// exp(-x^2 / 2) for x in 0 .. kReach, by x^2.
 class Falloff {
@@ -41,8 +43,9 @@ struct Tap {
 std::vector<Tap> taps_within(int radius_px) {
   std::vector<Tap> taps;
   const double sigma = 0.6 * radius_px;
-  for (int dy = -radius_px; dy <= radius_px; dy += kTapStep_px)
-    for (int dx = -radius_px; dx <= radius_px; dx += kTapStep_px)
+  const int step_px = std::max(1, radius_px / kTapsPerRadius);
+  for (int dy = -radius_px; dy <= radius_px; dy += step_px)
+    for (int dx = -radius_px; dx <= radius_px; dx += step_px)
       if (dx * dx + dy * dy <= radius_px * radius_px)
         taps.push_back({dx, dy, static_cast<float>(std::exp(-0.5 * (dx * dx + dy * dy) / (sigma * sigma)))});
   return taps;
@@ -85,7 +88,7 @@ float mean_of_like(const cv::Mat& share, const cv::Mat& depth, const cv::Mat& co
       const float apart = static_cast<float>(color_there[c]) - static_cast<float>(color_here[c]);
       squared += apart * apart;
     }
-    weight *= falloff(squared * kPerColor) * tap.weight;
+    weight *= tap.weight * (kLeastColor + (1 - kLeastColor) * falloff(squared * kPerColor));
     sum += weight * share.at<float>(ty, tx);
     weights += weight;
   }

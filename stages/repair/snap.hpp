@@ -9,7 +9,8 @@
 namespace sediment::repair {
 
 struct SnapParameters {
-  int radius_px = 8;  ///< how far an outline may be from the object's true edge; 0: masks stay as voted
+  int radius_px =
+      14;  ///< neighbourhood; outlines are set right that are off by up to a quarter of it; 0: they stay
   int rounds = 2;
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kStep_px = 2;
 constexpr float kLeastShare = 0.05F;  ///< pixels below this are left to the background
-constexpr int kMargin_px = 12;        ///< around the votes: what snapping may look at
+constexpr int kMargin_px = 16;        ///< around the votes: what snapping may look at
 
 /// The votes on one track, on the grid.
 struct Ballot {

@@ -10,6 +10,7 @@ file() { mkdir -p "$tree/$(dirname "$1")"; printf '%s\n' "${@:2}" >"$tree/$1"; }
 
 file pipeline/scene/pose.cpp '#include "pipeline/artifacts/cloud.hpp"'
 file pipeline/sorting/radix_sort.cpp '#include "pipeline/scene/pose.hpp"'
+file pipeline/motion/flow.cpp '#include "pipeline/artifacts/cloud.hpp"'
 file pipeline/artifacts/CMakeLists.txt 'sediment_library(sediment_artifacts LINKS sediment_contract)'
 file pipeline/contract/stage.cpp '#include <pipeline/scene/pose.hpp>'
 file pipeline/runner/plan.cpp '#include "pipeline/artifacts/cloud.hpp"'

@@ -23,12 +23,16 @@ foreign_includes() {
 }
 # foreign_links FOLDER ALLOWED_REGEX: our own layers that the folder's CMakeLists.txt names though it may not.
 foreign_links() {
-  grep -noHE '\b(sediment_(scene|sorting|artifacts|contract|runner)|stage_[a-z0-9-]+|tool_[a-z-]+)\b' "$1/CMakeLists.txt" |
+  grep -noHE '\b(sediment_(scene|sorting|motion|artifacts|contract|runner)|stage_[a-z0-9-]+|tool_[a-z-]+)\b' "$1/CMakeLists.txt" |
     grep -vE ":($2)$"
 }
 
 scene_includes() { foreign_includes pipeline/scene pipeline/scene; foreign_links pipeline/scene sediment_scene; }
 sorting_includes() { foreign_includes pipeline/sorting pipeline/sorting; foreign_links pipeline/sorting sediment_sorting; }
+motion_includes() {
+  foreign_includes pipeline/motion 'pipeline/(scene|motion)'
+  foreign_links pipeline/motion 'sediment_(scene|motion)'
+}
 artifacts_includes() {
   foreign_includes pipeline/artifacts 'pipeline/(scene|artifacts)'
   foreign_links pipeline/artifacts 'sediment_(scene|artifacts)'
@@ -41,8 +45,8 @@ runner_includes() {
 stages_include() {
   local stage
   for stage in $(folders_of stages); do
-    foreign_includes "$stage" "pipeline/(scene|sorting|artifacts|contract)|$stage"
-    foreign_links "$stage" "sediment_(scene|sorting|artifacts|contract)|stage_$(basename "$stage")"
+    foreign_includes "$stage" "pipeline/(scene|sorting|motion|artifacts|contract)|$stage"
+    foreign_links "$stage" "sediment_(scene|sorting|motion|artifacts|contract)|stage_$(basename "$stage")"
   done
 }
 algorithms_know_flags() {
@@ -94,11 +98,12 @@ dead_links() {
 
 check "scene stands on nothing of ours" nothing scene_includes
 check "sorting stands on nothing of ours" nothing sorting_includes
+check "motion stands on the scene alone" nothing motion_includes
 check "artifacts stand on the scene alone" nothing artifacts_includes
 check "the contract stands on nothing of ours" nothing contract_includes
 check "the runner stands on the contract alone" nothing runner_includes
 check "the runner loads neither OpenCV nor PCL" nothing heavy_libraries
-check "a stage stands on scene, sorting, artifacts and contract, not on another stage or the runner" nothing stages_include
+check "a stage stands on scene, sorting, motion, artifacts and contract, not on another stage or the runner" nothing stages_include
 check "the algorithm of a stage knows no flags" nothing algorithms_know_flags
 check "tools stand on neither stages nor the runner" nothing tools_include
 check "a stage has a page and a main.cpp" nothing incomplete_stages
