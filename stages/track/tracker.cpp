@@ -14,10 +14,7 @@ constexpr int kLeastToFollow = 15;   // inliers that make a first pose
 constexpr int kLeastToAccept = 20;   // inliers that make a pose
 constexpr int kLeastToRecover = 20;  // inliers without any guess of the pose
 constexpr int kLocalKeyframes = 30;
-constexpr int kFewInliers = 80;           // below, a keyframe hangs on the alignment of whole images too
-constexpr double kLeastOverlap = 0.4;     // of an alignment of whole images
-constexpr double kWorstDeviation = 0.02;  // radians, metres
-constexpr std::size_t kKeptImages = 4;
+constexpr int kFewInliers = 80;  // below, a keyframe hangs on the alignment of whole images too
 constexpr double kLongestPrediction_s = 1.0;
 constexpr double kFarTurn_rad = 0.2, kFarMove_m = 0.15;  // from a keyframe: time for a new one
 constexpr double kFewPoints = 0.75;                      // of the landmarks of its reference keyframe
@@ -55,46 +52,6 @@ void Tracker::track(double stamp_s, const View& view) {
     if (found) found = match_local_map(*found);
   }
   if (found) accept(*found);
-}
-
-// The frame as a whole against the last one: survives fast turns and blur, where features do not.
-std::optional<Pose> Tracker::aligned_to_last(const Pose& predicted) const {
-  const Pose last = camera_from_world(frames_[last_tracked_], map_);
-  const DenseAlignment alignment =
-      align(*last_images_, *images_, dense_camera_, predicted * last.inverse(), 1, parameters_.depth_noise);
-  if (alignment.overlap < kLeastOverlap || worst_deviation(alignment) > kWorstDeviation) return {};
-  return alignment.current_from_reference * last;
-}
-
-const DenseImages& Tracker::images_of(int keyframe_idx) {
-  const auto found = keyframe_images_.find(keyframe_idx);
-  if (found != keyframe_images_.end()) return found->second;
-  if (keyframe_images_.size() >= kKeptImages) keyframe_images_.erase(keyframe_images_.begin());
-  return keyframe_images_[keyframe_idx] =
-             dense_images(*map_.keyframes[keyframe_idx].dense, dense_camera_, parameters_.depth_noise);
-}
-
-// Where features fail: the frame as a whole against its keyframe, which does not drift while that one is in
-// view.
-std::optional<Tracker::Found> Tracker::align_to_keyframe(const Pose& predicted) {
-  const int keyframe_idx = frames_[last_tracked_].reference_idx;
-  const Pose& world_from_keyframe = map_.keyframes[keyframe_idx].world_from_camera;
-  const DenseAlignment alignment = align(images_of(keyframe_idx), *images_, dense_camera_,
-                                         predicted * world_from_keyframe, 0, parameters_.depth_noise);
-  if (alignment.overlap < kLeastOverlap || worst_deviation(alignment) > kWorstDeviation) return {};
-  frames_.back().reference_idx = keyframe_idx;
-  Found found;
-  found.estimate.camera_from_world = alignment.current_from_reference * world_from_keyframe.inverse();
-  return found;
-}
-
-void Tracker::link(int from_idx, int to_idx) {
-  const Pose start =
-      map_.keyframes[to_idx].world_from_camera.inverse() * map_.keyframes[from_idx].world_from_camera;
-  const DenseAlignment alignment =
-      align(images_of(from_idx), *images_, dense_camera_, start, 0, parameters_.depth_noise);
-  if (alignment.overlap < kLeastOverlap) return;
-  map_.links.push_back({from_idx, to_idx, alignment.current_from_reference, alignment.information});
 }
 
 bool Tracker::start_map() {
