@@ -63,7 +63,7 @@ int run(const Arguments& arguments) {
     for (const PlannedStage& stage : opened.instances.front().graph->stages)
       Workspace(opened.out).check(stage.name);
   store.make(arguments.durable);
-  store.remove_dead_attempts();
+  store.remove_leftovers();
   remember_workspace(store, opened.out);
   if (!opened.points.empty()) write_points(opened.points, opened.out);
 
@@ -73,6 +73,8 @@ int run(const Arguments& arguments) {
   store.memory().save();
   const bool all_kept =
       std::all_of(tasks.begin(), tasks.end(), [](const Task& task) { return task.outcome == Outcome::kept; });
+  // Once more: a stage of a killed runner may have gone on writing for the moment that its death took.
+  store.remove_leftovers();
   if (!all_kept) write_run(options.run, tasks, seconds());
   record(opened.instances, tasks, all_kept ? "" : options.run.string());
   fmt::print("{}", closing_table(tasks, seconds()));

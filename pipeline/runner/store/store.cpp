@@ -154,13 +154,19 @@ fs::path Store::make_attempt(const std::string& key) const {
   return folder;
 }
 
-void Store::remove_dead_attempts() const {
+void Store::remove_leftovers() const try {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(root_ / "attempts", ignored)) {
     const std::string name = entry.path().filename();
     const auto lock = KeyLock::try_acquire(root_ / "locks" / name.substr(0, name.find('.')));
     if (lock) fs::remove_all(entry.path(), ignored);
   }
+  // A runner that died between taking a lock and making its attempt leaves the file of the lock alone.
+  // Letting go of a lock removes its file.
+  for (const auto& entry : fs::directory_iterator(root_ / "locks", ignored))
+    KeyLock::try_acquire(entry.path());
+} catch (const std::runtime_error&) {
+  // A store that cannot be written keeps its leftovers; what has to be written will say so.
 }
 
 void Store::publish_object(const fs::path& folder, const contract::Manifest& manifest) const {

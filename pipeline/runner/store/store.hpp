@@ -57,8 +57,8 @@ class Store {
   std::filesystem::path receipt_path(const std::string& key) const;
   /// Moves something damaged to quarantine/.
   void put_aside(const std::filesystem::path& path) const;
-  /// Removes what attempts of runners that died have left.
-  void remove_dead_attempts() const;
+  /// Removes the attempts and locks that runners which died have left.
+  void remove_leftovers() const;
 
  private:
   bool is_whole(const std::string& summary) const;

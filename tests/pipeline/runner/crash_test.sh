@@ -60,7 +60,7 @@ one_round() {
   wait $! || { echo "the rerun after killing $2 at $delay ms failed"; cat "$out.log"; return 1; }
   bytes_of "$out" | cmp - reference.sha256 || { echo "other bytes after killing $2 at $delay ms"; return 1; }
   ! left_over "$out" || { echo "something is left running after killing $2 at $delay ms"; return 1; }
-  [ -z "$(ls -A "$out/.sediment/attempts" "$out/.sediment/locks" | grep -v :)" ] || { echo "leftovers in the store"; return 1; }
+  [ -z "$(ls -A "$out/.sediment/attempts" "$out/.sediment/locks" | grep -v :)" ] || { echo "leftovers in the store after killing $2 at $delay ms:"; ls -lR "$out/.sediment/attempts" "$out/.sediment/locks"; cat "$out.log"; return 1; }
   rm -rf "$out" "$out.log"
 }
 
