@@ -87,4 +87,8 @@ struct Exposure {
 FrameFeatures measured_features(const FrameFeatures& found, const cv::Mat& depth, const Camera& camera,
                                 const Exposure& exposure, const Parameters& parameters);
 
+/// Measured features after a small change of the sensor's timing, to first order: no image is read again.
+FrameFeatures retimed_features(const FrameFeatures& measured, const SensorTiming& change, int width,
+                               int height);
+
 }  // namespace sediment::track

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "stages/track/features.hpp"
@@ -68,6 +69,19 @@ FrameFeatures measured_features(const FrameFeatures& found, const cv::Mat& depth
   for (const Feature& feature : found.features())
     features.push_back(measured(feature, depth, camera, exposure, parameters));
   return FrameFeatures(std::move(features), found.descriptors(), camera.width, camera.height);
+}
+
+FrameFeatures retimed_features(const FrameFeatures& measured, const SensorTiming& change, int width,
+                               int height) {
+  std::vector<Feature> features = measured.features();
+  for (Feature& feature : features) {
+    feature.u_px += static_cast<float>(change.readout_s) * feature.u_rate;
+    feature.v_px += static_cast<float>(change.readout_s) * feature.v_rate;
+    if (feature.inverse_depth > 0)
+      feature.inverse_depth = std::max(
+          1e-3f, feature.inverse_depth + static_cast<float>(change.depth_lag_s) * feature.depth_rate);
+  }
+  return FrameFeatures(std::move(features), measured.descriptors(), width, height);
 }
 
 }  // namespace sediment::track

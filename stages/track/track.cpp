@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
@@ -135,17 +136,42 @@ Tracked collect(const Recording& recording, Tracker& tracker) {
   return result;
 }
 
-// Measures the features of the keyframes, or of all frames, again with what is known of the camera's motion.
-void measure_again(const Recording& recording, const Parameters& parameters, const SensorTiming& timing,
-                   bool keyframes_only, Tracker& tracker) {
-  const Hindsight hindsight = learn(recording, tracker, timing);
-  tbb::parallel_for(std::size_t{0}, tracker.frames().size(), [&](std::size_t i) {
-    TrackedFrame& frame = tracker.frames()[i];
-    if (frame.keyframe || !keyframes_only)
-      frame.features = corrected_features(recording, parameters, hindsight, i);
-  });
+void share_with_keyframes(Tracker& tracker) {
   for (Keyframe& keyframe : tracker.map().keyframes)
     keyframe.features = tracker.frames()[keyframe.frame_idx].features;
+}
+
+// Measures the features of the keyframes again with what the first pass tells of the camera's motion.
+void measure_keyframes_again(const Recording& recording, const Parameters& parameters, Tracker& tracker) {
+  const Hindsight hindsight = learn(recording, tracker, {});
+  tbb::parallel_for(std::size_t{0}, tracker.frames().size(), [&](std::size_t i) {
+    TrackedFrame& frame = tracker.frames()[i];
+    if (frame.keyframe) frame.features = corrected_features(recording, parameters, hindsight, i);
+  });
+  share_with_keyframes(tracker);
+}
+
+void retime(const Camera& camera, const SensorTiming& before, const SensorTiming& after, Tracker& tracker) {
+  const SensorTiming change{after.readout_s - before.readout_s, after.depth_lag_s - before.depth_lag_s};
+  if (change.readout_s == 0 && change.depth_lag_s == 0) return;
+  for (TrackedFrame& frame : tracker.frames())
+    frame.features = std::make_shared<const FrameFeatures>(
+        retimed_features(*frame.features, change, camera.width, camera.height));
+  share_with_keyframes(tracker);
+}
+
+// Whether what was learned moves measurements by so much that the recording is worth another pass: by more
+// than half a pixel in a tenth of the frames.
+bool worth_another_pass(const Recording& recording, const Hindsight& hindsight) {
+  constexpr double kShift_px = 0.5, kShare = 0.1;
+  std::size_t moved_far = 0;
+  for (std::size_t i = 0; i < hindsight.motions.size(); ++i) {
+    const SensorTiming& timing = hindsight.timing;
+    const double time_s =
+        0.5 * std::abs(timing.readout_s) + std::abs(timing.depth_lag_s + depth_delay_s(recording, i));
+    moved_far += norm(hindsight.motions[i].angular_rad_s) * recording.camera.fx * time_s > kShift_px;
+  }
+  return static_cast<double>(moved_far) > kShare * static_cast<double>(hindsight.motions.size());
 }
 
 }  // namespace
@@ -160,22 +186,23 @@ Tracked track(const Recording& recording, const Parameters& parameters,
       recording, [&](std::size_t i) { return found_view(recording, parameters, dense_camera, i); }, advance,
       *tracker);
   SensorTiming timing;
-  for (int pass = 1; pass <= parameters.passes && tracker->map().keyframes.size() > 1; ++pass) {
-    measure_again(recording, parameters, timing, true, *tracker);
+  if (tracker->map().keyframes.size() > 1) {
+    measure_keyframes_again(recording, parameters, *tracker);
     timing = adjust_all(tracker->map(), pinhole, timing);
-    if (pass == parameters.passes) break;
+  }
+  for (int pass = 2; pass <= parameters.passes && tracker->map().keyframes.size() > 1; ++pass) {
     const Hindsight hindsight = learn(recording, *tracker, timing);
+    if (!worth_another_pass(recording, hindsight)) break;
     tracker = std::make_unique<Tracker>(pinhole, dense_camera, parameters);
     run_front_end(
         recording,
         [&](std::size_t i) { return corrected_view(recording, parameters, dense_camera, hindsight, i); }, {},
         *tracker);
+    timing = adjust_all(tracker->map(), pinhole, timing);
+    retime(recording.camera, hindsight.timing, timing, *tracker);
+    timing = adjust_all(tracker->map(), pinhole, timing);
   }
-  if (tracker->map().keyframes.size() > 1) {
-    measure_again(recording, parameters, timing, false, *tracker);
-    adjust_all(tracker->map(), pinhole, timing);
-    refine_frames(*tracker, pinhole);
-  }
+  refine_frames(*tracker, pinhole);
   Tracked result = collect(recording, *tracker);
   result.timing = timing;
   return result;
