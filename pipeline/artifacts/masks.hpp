@@ -16,8 +16,8 @@ class MasksWriter {
   explicit MasksWriter(std::filesystem::path folder);
   /// Safe to call from several threads and in any order of frames.
   void write(const std::string& stamp, const InstanceMask& mask);
-  /// Writes instances.json (frames in order of their stamps). Must be called once, at the end. `amend` may change
-  /// all but the id of an instance: for what is known only when all frames are.
+  /// Writes instances.json (frames in order of their stamps). Must be called once, at the end. `amend` may
+  /// change all but the id of an instance: for what is known only when all frames are.
   void finish(const std::function<void(const std::string& stamp, Instance& instance)>& amend = {});
 
  private:

@@ -25,7 +25,8 @@ struct Instance {
   std::string class_name;  ///< as in the network's table, e.g. "person"
   double score = 1;        ///< 0 .. 1
   std::array<double, 4> box_px{};  ///< left top right bottom
-  std::optional<double> speed_m_s{};  ///< against what stands still, across the view; if its producer knows it
+  std::optional<double>
+      speed_m_s{};  ///< against what stands still, across the view; if its producer knows it
 };
 
 /// The instances of one frame.

@@ -103,7 +103,7 @@ TEST_CASE("a failed stage publishes nothing, blocks those behind it and shows wh
   CHECK(bench.run(bench.noted()).code == 0);
 }
 
-TEST_CASE("--keep-going makes what does not depend on the failure") {
+TEST_CASE("flag --keep-going makes what does not depend on the failure") {
   const Workbench bench;
   bench.write("pipeline.yaml", R"(sources: {sequence: {kind: sequence, path: data}}
 stages:
@@ -120,7 +120,7 @@ stages:
   CHECK(fs::exists(bench / "out/chart"));
 }
 
-TEST_CASE("--only, --from and --until limit what runs") {
+TEST_CASE("flag --only, --from and --until limit what runs") {
   const Workbench bench;
   REQUIRE(bench.run(bench.noted() + "--until smooth").code == 0);
   CHECK(bench.started() == "scan smooth");

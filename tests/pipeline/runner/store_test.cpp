@@ -66,7 +66,7 @@ TEST_CASE("verify reads everything and puts aside what changed without changing 
   CHECK(bench.sediment("verify --store data").code == 2);
 }
 
-TEST_CASE("--durable gives the same results") {
+TEST_CASE("flag --durable gives the same results") {
   const Workbench bench;
   REQUIRE(bench.run("--durable").code == 0);
   CHECK_THAT(bench.run().out, Contains("4 kept"));

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "tools/chart/chart.hpp"
 #include "tools/alignment/alignment.hpp"
+#include "tools/chart/chart.hpp"
 #include "tools/evaluate-trajectory/matching.hpp"
 #include "tools/evaluate-trajectory/python_random.hpp"
 #include "tools/evaluate-trajectory/statistics.hpp"
