@@ -14,6 +14,7 @@ packages=(
   libopencv-dev libpcl-dev liboctomap-dev libeigen3-dev libceres-dev libyaml-cpp-dev libtbb-dev
   nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev
   catch2 libbenchmark-dev clang-format clang-tidy shellcheck
+  slurm-wlm munge  # for the test of --backend slurm, which starts a Slurm of its own
 )
 scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 

@@ -69,6 +69,25 @@ void add_run_flags(CLI::App& app, Arguments& arguments) {
                "Begin even if results as large as the last ones would not fit on the disk");
 }
 
+void add_slurm_flags(CLI::App& app, Arguments& arguments) {
+  auto* backend = app.add_option("--backend", arguments.backend,
+                                 "Where stages run: local (this machine) or slurm [local]")
+                      ->check(CLI::IsMember({"local", "slurm"}));
+  app.add_option(
+         "--pack", arguments.pack,
+         "What one task of Slurm does: sequence (an instance), stage, or chunk:N (N instances) [sequence]")
+      ->needs(backend);
+  app.add_option("--profile", arguments.profile,
+                 "What the cluster wants to be told, a YAML file [$SEDIMENT_SLURM_PROFILE]")
+      ->needs(backend)
+      ->type_name("FILE");
+  app.add_option("--in-flight", arguments.in_flight, "Tasks of Slurm at the same time, per layer [no limit]")
+      ->needs(backend)
+      ->check(CLI::Range(1, 1'000'000));
+  app.add_flag("--wait", arguments.wait, "Stay until Slurm is through; submit again what it lost")
+      ->needs(backend);
+}
+
 void add_table_flags(CLI::App& app, Arguments& arguments) {
   app.add_option("--value", arguments.values,
                  "stage.bytes, .seconds, .cpu_seconds, .memory, .FILE or .METRIC; a ratio of two; a [unit] "
@@ -98,6 +117,13 @@ void add_own_flags(CLI::App& app, const std::string& name, Arguments& arguments)
         ->check(CLI::Range(0.0, 1.0));
   if (name == "pin" || name == "seal") app.add_flag("--remove", arguments.remove, "Undo it");
   if (name == "table") add_table_flags(app, arguments);
+  if (name == "run" || name == "sweep") add_slurm_flags(app, arguments);
+  if (name == "slurm-task") {
+    app.add_option("array", arguments.array, "Number of the array job")->required();
+    app.add_option("--index", arguments.index, "Task of it [$SLURM_ARRAY_TASK_ID]")
+        ->envname("SLURM_ARRAY_TASK_ID")
+        ->required();
+  }
   if (name != "prune") return;
   app.add_option("--older-than", arguments.older_than, "Results made longer ago: 90s, 15m, 2h, 30d")
       ->type_name("AGE");

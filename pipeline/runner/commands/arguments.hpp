@@ -30,6 +30,11 @@ struct Arguments {
   std::vector<std::string> values, rows;  ///< of table
   std::string columns, aggregate;
   std::string format = "text";  ///< of graph
+  std::string backend = "local", pack = "sequence";
+  std::filesystem::path profile;  ///< of a cluster
+  int in_flight = 0;              ///< tasks of Slurm at the same time, 0 = as the profile says
+  bool wait = false;
+  std::size_t array = 0, index = 0;  ///< of slurm-task
 };
 
 /// Answers --help and --version itself: then there is nothing left to do. Throws contract::UsageError.

@@ -12,6 +12,8 @@ std::span<const Command> commands() {
       {"why", "Show in what a stage differs from its last result, part by part",
        kLook | kSelection | kOptionalStage | kJson, show_why},
       {"status", "Show which results are there; runs nothing", kLook | kSelection | kJson, show_status},
+      {"cancel", "Cancel what was submitted to Slurm for a pipeline or a sweep", kConfig | kPlaces,
+       cancel_jobs},
       {"graph", "Print the pipeline as text, Mermaid, DOT or JSON", kLook | kJson, show_graph},
       {"log", "Print what a stage said when its result was made, or when it last failed", kLook | kStage,
        show_log},
@@ -29,6 +31,8 @@ std::span<const Command> commands() {
        kOptionalConfig | kPlaces | kPrograms, prune_store},
       {"seal", "Digest a dataset once: later runs trust its manifest.json and look at no other file of it",
        kFolder, seal},
+      {"slurm-task", "Do one task of an array job; the batch scripts of --backend slurm call it", kFolder,
+       run_slurm_task},
   };
   return kCommands;
 }

@@ -49,5 +49,7 @@ int seal(const Arguments& arguments);
 int sweep(const Arguments& arguments);
 int show_table(const Arguments& arguments);
 int compare(const Arguments& arguments);
+int cancel_jobs(const Arguments& arguments);
+int run_slurm_task(const Arguments& arguments);
 
 }  // namespace sediment::runner

@@ -26,6 +26,12 @@ Places places_of(const Arguments& arguments, const std::string& name) {
   return places;
 }
 
+std::string name_in(const fs::path& config) {
+  const fs::path file = pipeline_file_of(config);
+  Violations ignored(file);
+  return is_sweep(file) ? file.stem().string() : read_pipeline(file, ignored).name;
+}
+
 /// Makes instances of one pipeline. Those with the same parameters and the same sources given share their
 /// graph.
 class Instances {
@@ -78,13 +84,12 @@ class Instances {
 
 }  // namespace
 
+fs::path out_of(const Arguments& arguments) {
+  return places_of(arguments, name_in(arguments.config)).out;
+}
+
 fs::path store_of(const Arguments& arguments) {
-  std::string name;
-  if (!arguments.config.empty()) {
-    const fs::path file = pipeline_file_of(arguments.config);
-    Violations ignored(file);
-    name = is_sweep(file) ? file.stem().string() : read_pipeline(file, ignored).name;
-  }
+  const std::string name = arguments.config.empty() ? "" : name_in(arguments.config);
   const bool is_said =
       !arguments.store.empty() || !arguments.out.empty() || !name.empty() || environment("SEDIMENT_STORE");
   if (!is_said) throw contract::UsageError("which store? name a pipeline, --out DIR or --store DIR");

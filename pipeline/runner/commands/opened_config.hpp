@@ -15,6 +15,9 @@ namespace sediment::runner {
 /// is.
 std::filesystem::path store_of(const Arguments& arguments);
 
+/// The folder of results of a call that names a configuration, absolute.
+std::filesystem::path out_of(const Arguments& arguments);
+
 /// A pipeline, or all instances of a sweep: read, checked against the stages, and the sources digested.
 struct OpenedConfig {
   std::filesystem::path out;  ///< absolute

@@ -3,6 +3,7 @@
 #include "pipeline/contract/errors.hpp"
 #include "pipeline/runner/commands/command_table.hpp"
 #include "pipeline/runner/commands/look.hpp"
+#include "pipeline/runner/commands/slurm_states.hpp"
 #include "pipeline/runner/config/graph_text.hpp"
 #include "pipeline/runner/execution/text_table.hpp"
 
@@ -89,18 +90,24 @@ int show_graph(const Arguments& arguments) {
 
 int show_status(const Arguments& arguments) {
   const Look all = look(arguments);
+  const SlurmStates on_slurm = slurm_states(all);
   Json json = Json::array();
   std::vector<std::vector<std::string>> rows{{"stage", "state", "result", "why"}};
   for (const LookedAt& one : all.stages) {
-    const std::string state = state_in_status(one, *all.opened.store);
-    rows.push_back(
-        {one.label, state, one.task.hit ? shown_bytes(one.task.hit->bytes) : "-", one.task.why.text});
+    const auto known = on_slurm.by_place.find({one.instance_idx, one.stage_idx});
+    const bool is_known = known != on_slurm.by_place.end();
+    const std::string state = is_known ? known->second.state : state_in_status(one, *all.opened.store);
+    const std::string why = is_known ? known->second.why : one.task.why.text;
+    rows.push_back({one.label, state, one.task.hit ? shown_bytes(one.task.hit->bytes) : "-", why});
     if (!arguments.json) continue;
     json.push_back(json_of(one));
     json.back()["state"] = state;
+    if (!is_known) continue;
+    json.back()["why"] = why;
+    json.back()["job"] = known->second.job;
   }
   if (arguments.json) return print_json(json);
-  fmt::print("{}", aligned(rows, {2}));
+  fmt::print("{}{}", aligned(rows, {2}), on_slurm.summary);
   return contract::kDone;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pipeline/contract/errors.hpp"
+#include "pipeline/runner/commands/bring_up_to_date.hpp"
 #include "pipeline/runner/commands/command_table.hpp"
 #include "pipeline/runner/commands/opened_config.hpp"
 #include "pipeline/runner/execution/text_table.hpp"
@@ -58,11 +59,11 @@ int sweep(const Arguments& arguments) {
   const fs::path file = pipeline_file_of(arguments.config);
   if (fs::exists(file) && !is_sweep(file))
     throw UsageError(file.string() + " is a pipeline, no sweep: it names no \"pipeline\" to vary");
-  const int code = run(arguments);
+  const auto [code, is_complete] = bring_up_to_date(arguments);
   Arguments call = arguments;
   if (call.out.empty()) call.out = fs::path("out") / file.stem();
   const fs::path out = call.out;
-  if (code != contract::kDone) return code;
+  if (code != contract::kDone || !is_complete) return code;
   const ResultTable table = make_table(results_in(out, call), {});
   if (table.size() <= kMostRows)
     fmt::print("\nbytes of every result\n{}", format_table(table, "markdown"));

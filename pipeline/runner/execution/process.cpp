@@ -108,9 +108,10 @@ void signal_group(pid_t pid, int signal) {
   kill(-pid, signal);
 }
 
-std::string output_of(const std::vector<std::string>& argv, int limit_s) {
+std::string output_of(const std::vector<std::string>& argv, int limit_s,
+                      const std::vector<std::string>& environment) {
   const Closing out{memfd_create("stdout", MFD_CLOEXEC)}, err{memfd_create("stderr", MFD_CLOEXEC)};
-  const pid_t pid = start({argv, fixed_environment("/"), "/", out.descriptor, err.descriptor});
+  const pid_t pid = start({argv, environment, "/", out.descriptor, err.descriptor});
   const Closing watched{static_cast<int>(syscall(SYS_pidfd_open, pid, 0))};
   pollfd ended{watched.descriptor, POLLIN, 0};
   int count = 0;

@@ -41,11 +41,12 @@ std::optional<Ending> reap(pid_t pid);
 /// Signals the whole process group.
 void signal_group(pid_t pid, int signal);
 
-/// Runs a short program to its end and returns its stdout. Throws std::runtime_error if it fails, with what
-/// it said, or takes longer than `limit_s`.
-std::string output_of(const std::vector<std::string>& argv, int limit_s);
-
 /// The environment of every stage, whatever the user's is: results must not depend on it.
 std::vector<std::string> fixed_environment(const std::filesystem::path& home);
+
+/// Runs a short program to its end and returns its stdout. Throws std::runtime_error if it fails, with what
+/// it said, or takes longer than `limit_s`.
+std::string output_of(const std::vector<std::string>& argv, int limit_s,
+                      const std::vector<std::string>& environment = fixed_environment("/"));
 
 }  // namespace sediment::runner
