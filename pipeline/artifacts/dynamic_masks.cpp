@@ -9,7 +9,7 @@
 namespace sediment {
 namespace {
 
-constexpr const char* kFormat = "sediment-dynamic-masks 1";
+constexpr const char* kInteractionsFormat = "sediment-dynamic-masks 1";
 
 Json to_json(const Interaction& pair) {
   return {{"dynamic_id", pair.dynamic_id},   {"dynamic_class", pair.dynamic_class},
@@ -52,7 +52,7 @@ void DynamicMasksWriter::finish() {
     for (const Interaction& pair : interactions) list.push_back(to_json(pair));
     frames.push_back({{"stamp", stamp}, {"interactions", std::move(list)}});
   }
-  write_frame_json(folder_ / "interactions.json", kFormat, frames);
+  write_frame_json(folder_ / "interactions.json", kInteractionsFormat, frames);
 }
 
 DynamicMasksReader::DynamicMasksReader(std::filesystem::path folder) : folder_(std::move(folder)) {

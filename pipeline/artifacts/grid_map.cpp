@@ -11,7 +11,7 @@
 namespace sediment {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr double kOccupiedThreshold = 0.65;
 /// Below the (255 - 205) / 255 = 0.196 of an unknown cell: with nav2's default of 0.25 it would load as free.
@@ -29,7 +29,7 @@ std::string yaml_of(const GridMap& map) {
 std::string ground_of(const GridMap& map) {
   const auto& r = map.map_from_world.rotation;
   const Vec3 t = map.map_from_world.translation;
-  Json json;
+  OrderedJson json;
   json["source"] = map.ground_source;
   json["map_from_world"] = {
       {r[0], r[1], r[2], t.x}, {r[3], r[4], r[5], t.y}, {r[6], r[7], r[8], t.z}, {0, 0, 0, 1}};
@@ -40,14 +40,14 @@ std::string ground_of(const GridMap& map) {
 
 void read_ground(const std::filesystem::path& file, GridMap& map) {
   try {
-    const Json json = Json::parse(read_bytes(file));
+    const OrderedJson json = OrderedJson::parse(read_bytes(file));
     map.ground_source = json.at("source").get<std::string>();
     const auto rows = json.at("map_from_world").get<std::array<std::array<double, 4>, 4>>();
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column)
         map.map_from_world.rotation[row * 3 + column] = rows[row][column];
     map.map_from_world.translation = {rows[0][3], rows[1][3], rows[2][3]};
-  } catch (const Json::exception& error) {
+  } catch (const OrderedJson::exception& error) {
     throw std::runtime_error(file.string() + ": " + error.what());
   }
 }

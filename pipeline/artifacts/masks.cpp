@@ -8,7 +8,7 @@
 namespace sediment {
 namespace {
 
-constexpr const char* kFormat = "sediment-masks 1";
+constexpr const char* kMasksFormat = "sediment-masks 1";
 
 std::filesystem::path image_of(const std::filesystem::path& folder, const std::string& stamp) {
   return folder / "masks" / (stamp + ".png");
@@ -85,11 +85,11 @@ void MasksWriter::finish(const std::function<void(const std::string&, Instance&)
     for (const Instance& instance : instances) list.push_back(to_json(instance));
     frames.push_back({{"stamp", stamp}, {"instances", std::move(list)}});
   }
-  write_frame_json(folder_ / "instances.json", kFormat, frames);
+  write_frame_json(folder_ / "instances.json", kMasksFormat, frames);
 }
 
 MasksReader::MasksReader(std::filesystem::path folder) : folder_(std::move(folder)) {
-  read_frame_json(folder_ / "instances.json", kFormat, [&](const std::string& stamp, const Json& frame) {
+  read_frame_json(folder_ / "instances.json", kMasksFormat, [&](const std::string& stamp, const Json& frame) {
     std::vector<Instance> instances;
     for (const Json& instance : frame.at("instances")) instances.push_back(instance_from(instance));
     std::sort(instances.begin(), instances.end(), [](const auto& a, const auto& b) { return a.id < b.id; });

@@ -13,7 +13,7 @@
 namespace sediment {
 namespace {
 
-constexpr const char* kFormat = "sediment-tracking 1";
+constexpr const char* kTrackingFormat = "sediment-tracking 1";
 constexpr double kAlike_m = 0.01, kAlike_rad = 0.0175;  ///< poses of a ground truth that are the same
 constexpr const char* kColumns[8] = {"timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw"};
 
@@ -98,7 +98,7 @@ void write_trajectory(const std::filesystem::path& folder, const Trajectory& tra
     throw std::runtime_error("keyframe " + *keyframe_stamps.begin() + " has no pose in the trajectory");
   write_tum_trajectory(folder / "trajectory.txt", trajectory);
   write_tum_trajectory(folder / "keyframes.txt", keyframes);
-  write_frame_json(folder / "tracking.json", kFormat, list);
+  write_frame_json(folder / "tracking.json", kTrackingFormat, list);
 }
 
 Trajectory read_trajectory(const std::filesystem::path& folder) {
@@ -107,7 +107,7 @@ Trajectory read_trajectory(const std::filesystem::path& folder) {
 
 std::vector<FrameTracking> read_tracking(const std::filesystem::path& folder) {
   std::vector<FrameTracking> frames;
-  read_frame_json(folder / "tracking.json", kFormat, [&](const std::string& stamp, const Json& json) {
+  read_frame_json(folder / "tracking.json", kTrackingFormat, [&](const std::string& stamp, const Json& json) {
     const auto state = json.at("state").get<std::string>();
     if (state != "tracked" && state != "lost") throw std::runtime_error("unknown state \"" + state + "\"");
     frames.push_back({stamp, state == "tracked" ? TrackingState::tracked : TrackingState::lost,

@@ -8,7 +8,7 @@
 namespace sediment::contract {
 namespace {
 
-constexpr const char* kFormat = "sediment-stage 1";
+constexpr const char* kStageFormat = "sediment-stage 1";
 
 Json to_json(const Port& port) {
   return {{"role", port.role}, {"kind", port.kind}, {"optional", port.optional}, {"help", port.help}};
@@ -69,12 +69,9 @@ const Parameter* Description::find_parameter(std::string_view name) const {
 }
 
 Json to_json(const Description& description) {
-  Json json = {{"format", kFormat},
-               {"stage", description.stage},
-               {"version", description.version},
-               {"summary", description.summary},
-               {"reads", Json::array()},
-               {"writes", Json::array()},
+  Json json = {{"format", kStageFormat},         {"stage", description.stage},
+               {"version", description.version}, {"summary", description.summary},
+               {"reads", Json::array()},         {"writes", Json::array()},
                {"parameters", Json::array()}};
   for (const Port& port : description.reads) json["reads"].push_back(to_json(port));
   for (const Port& port : description.writes) json["writes"].push_back(to_json(port));
@@ -84,7 +81,8 @@ Json to_json(const Description& description) {
 
 Description description_from(const Json& json) {
   try {
-    if (json.at("format") != kFormat) throw std::runtime_error("unknown format " + json.at("format").dump());
+    if (json.at("format") != kStageFormat)
+      throw std::runtime_error("unknown format " + json.at("format").dump());
     Description description{json.at("stage"), json.at("version"), json.at("summary"), {}, {}, {}};
     for (const Json& port : json.at("reads")) description.reads.push_back(port_from(port));
     for (const Json& port : json.at("writes")) description.writes.push_back(port_from(port));

@@ -15,7 +15,7 @@ namespace sediment::contract {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* kFormat = "sediment-manifest 1";
+constexpr const char* kManifestFormat = "sediment-manifest 1";
 
 }  // namespace
 
@@ -50,7 +50,7 @@ Manifest manifest_of(const fs::path& folder, const std::string& stage) {
 
 void write_manifest(const Manifest& manifest, const fs::path& folder) {
   nlohmann::ordered_json json;
-  json["format"] = kFormat;
+  json["format"] = kManifestFormat;
   json["stage"] = manifest.stage;
   json["id"] = manifest.id();
   json["bytes"] = manifest.bytes();
@@ -71,8 +71,8 @@ Manifest read_manifest(const fs::path& folder) {
   if (!stream) throw std::runtime_error("cannot read " + file.string() + ": " + std::strerror(errno));
   try {
     const auto json = nlohmann::json::parse(stream);
-    if (json.at("format") != kFormat)
-      throw std::runtime_error("expected format \"" + std::string(kFormat) + "\", found " +
+    if (json.at("format") != kManifestFormat)
+      throw std::runtime_error("expected format \"" + std::string(kManifestFormat) + "\", found " +
                                json.at("format").dump());
     Manifest manifest{json.at("stage"), {}};
     for (const auto& entry : json.at("files"))

@@ -12,18 +12,18 @@ namespace sediment::runner {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-constexpr const char* kFormat = "sediment-run-log 1";
+constexpr const char* kRunLogFormat = "sediment-run-log 1";
 
-void write(const fs::path& file, const Json& json) {
+void write(const fs::path& file, const OrderedJson& json) {
   std::ofstream stream(file, std::ios::binary);
-  stream << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+  stream << json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) << '\n';
   stream.close();
   if (!stream) throw std::runtime_error("cannot write " + file.string() + ": " + std::strerror(errno));
 }
 
-Json event_of(const Task& task) {
+OrderedJson event_of(const Task& task) {
   return {
       {"name", task.label},
       {"cat", name_of(task.outcome)},
@@ -36,7 +36,7 @@ Json event_of(const Task& task) {
        {{"why", task.why}, {"cpu_s", task.cpu_s}, {"peak_bytes", task.peak_bytes}, {"bytes", task.bytes}}}};
 }
 
-Json json_of(const Task& task) {
+OrderedJson json_of(const Task& task) {
   return {{"stage", task.label},
           {"state", name_of(task.outcome)},
           {"why", task.why},
@@ -70,12 +70,12 @@ void update(StageRecord& record, const Task& task) {
 }  // namespace
 
 void write_run(const fs::path& folder, const std::vector<Task>& tasks, double seconds) {
-  Json log = {{"format", kFormat},
-              {"host", host_name()},
-              {"seconds", seconds},
-              {"kept", 0},
-              {"stages", Json::array()}};
-  Json trace = {{"displayTimeUnit", "ms"}, {"traceEvents", Json::array()}};
+  OrderedJson log = {{"format", kRunLogFormat},
+                     {"host", host_name()},
+                     {"seconds", seconds},
+                     {"kept", 0},
+                     {"stages", OrderedJson::array()}};
+  OrderedJson trace = {{"displayTimeUnit", "ms"}, {"traceEvents", OrderedJson::array()}};
   std::size_t kept = 0;
   for (const Task& task : tasks) {
     if (task.outcome == Outcome::kept)

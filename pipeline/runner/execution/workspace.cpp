@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using contract::Json;
 
-constexpr const char* kFormat = "sediment-run 1";
+constexpr const char* kRunFormat = "sediment-run 1";
 /// Stands within the first bytes of run.json.
 constexpr std::string_view kIdKey = "\"id\": \"";
 
@@ -56,7 +56,7 @@ RunRecord Workspace::read_record() const try {
   std::ifstream stream(folder_ / "run.json");
   if (!stream) return record;
   const Json json = Json::parse(stream);
-  if (json.at("format") != kFormat) return record;
+  if (json.at("format") != kRunFormat) return record;
   record.id = json.at("id");
   record.run = json.at("run");
   record.order = json.at("order").get<std::vector<std::string>>();
@@ -82,7 +82,7 @@ std::string Workspace::recorded() const {
 
 void Workspace::write_record(const RunRecord& record) const {
   nlohmann::ordered_json json;
-  json["format"] = kFormat;
+  json["format"] = kRunFormat;
   json["id"] = record.id;
   json["run"] = record.run;
   json["order"] = record.order;

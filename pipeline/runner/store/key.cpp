@@ -7,7 +7,7 @@ namespace {
 
 using contract::Json;
 
-constexpr const char* kFormat = "sediment-key 1";
+constexpr const char* kKeyFormat = "sediment-key 1";
 constexpr std::size_t kShortId = 11;  ///< "x3:" and eight digits
 
 std::string shown(const Json& value) {
@@ -43,8 +43,8 @@ Key key_of(const PlannedStage& stage, const std::vector<std::string>& input_ids)
     if (parameter.affects_result) params[parameter.name] = stage.params.at(parameter.name);
   for (std::size_t i = 0; i < input_ids.size(); ++i) inputs.push_back({stage.inputs[i].role, input_ids[i]});
   for (const contract::Port& port : description.writes) outputs.push_back({port.role, port.kind});
-  const Json parts = {{"format", kFormat}, {"stage", stage.name}, {"exe", stage.program->digest},
-                      {"params", params},  {"inputs", inputs},    {"outputs", outputs}};
+  const Json parts = {{"format", kKeyFormat}, {"stage", stage.name}, {"exe", stage.program->digest},
+                      {"params", params},     {"inputs", inputs},    {"outputs", outputs}};
   Key key{parts.dump(), ""};
   key.id = contract::digest_bytes(key.text);
   return key;

@@ -9,7 +9,7 @@ namespace {
 
 using contract::Json;
 
-constexpr const char* kFormat = "sediment-receipt 1";
+constexpr const char* kReceiptFormat = "sediment-receipt 1";
 constexpr std::string_view kDigestKey = ",\"digest\":\"";
 
 }  // namespace
@@ -20,7 +20,7 @@ std::string text_of(const Receipt& receipt) {
   for (const Json& output : receipt.parts.at("outputs"))
     outputs.push_back({{"role", output.at(0)}, {"id", receipt.object}, {"bytes", receipt.bytes}});
   nlohmann::ordered_json json;
-  json["format"] = kFormat;
+  json["format"] = kReceiptFormat;
   json["key"] = receipt.key;
   json["parts"] = receipt.parts;
   json["object"] = receipt.object;
@@ -49,7 +49,8 @@ Receipt receipt_from(const std::string& text) {
           std::string(kDigestKey) + contract::digest_bytes(std::string_view(text).substr(0, end)) + "\"}\n")
     throw std::runtime_error("the receipt is cut or changed");
   const Json json = Json::parse(text);
-  if (json.at("format") != kFormat) throw std::runtime_error("unknown format " + json.at("format").dump());
+  if (json.at("format") != kReceiptFormat)
+    throw std::runtime_error("unknown format " + json.at("format").dump());
   Receipt receipt;
   receipt.key = json.at("key");
   receipt.parts = json.at("parts");

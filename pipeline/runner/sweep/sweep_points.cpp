@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using contract::Json;
 
-constexpr const char* kFormat = "sediment-sweep 1";
+constexpr const char* kSweepFormat = "sediment-sweep 1";
 constexpr std::size_t kMostInstances = 1'000'000;
 
 bool is_source(const std::string& name) {
@@ -86,7 +86,7 @@ std::vector<SweepPoint> points_of(const SweepFile& sweep) {
 }
 
 void write_points(const std::vector<SweepPoint>& points, const fs::path& out) {
-  nlohmann::ordered_json json = {{"format", kFormat}, {"instances", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json json = {{"format", kSweepFormat}, {"instances", nlohmann::ordered_json::array()}};
   for (const SweepPoint& point : points)
     json["instances"].push_back({{"name", point.name}, {"values", point.values}});
   const std::string text = json.dump() + '\n';
@@ -111,7 +111,8 @@ std::vector<SweepPoint> read_points(const fs::path& out) {
   }
   try {
     const Json json = Json::parse(stream);
-    if (json.at("format") != kFormat) throw std::runtime_error("unknown format " + json.at("format").dump());
+    if (json.at("format") != kSweepFormat)
+      throw std::runtime_error("unknown format " + json.at("format").dump());
     std::vector<SweepPoint> points;
     for (const Json& one : json.at("instances"))
       points.push_back({one.at("name"), one.at("values").get<decltype(SweepPoint::values)>(), {}, {}});
