@@ -7,7 +7,6 @@
 namespace sediment::repair {
 namespace {
 
-constexpr int kStep_px = 2;
 constexpr int kNeighbors = 2;  ///< frames on either side that may bear witness
 
 int detections_near(const Track& track, std::size_t frame_idx, int max_gap) {

@@ -8,7 +8,6 @@
 namespace sediment::repair {
 namespace {
 
-constexpr int kStep_px = 2;
 constexpr double kSameClassBonus = 0.3;  ///< in overlap: so much worse may a mask of the same class fit
 constexpr double kAgePenalty = 0.01;     ///< in overlap, per frame
 

@@ -7,6 +7,8 @@
 
 namespace sediment::repair {
 
+constexpr int kStep_px = 2;  ///< of the grid of pixels that are followed through the clip
+
 enum class Direction { backward = -1, forward = 1 };
 
 /// Follows the pixels of frame `from_idx` (a grid of `step_px`) through the frames before or after it, up to

@@ -11,7 +11,6 @@
 namespace sediment::repair {
 namespace {
 
-constexpr int kStep_px = 2;
 constexpr float kLeastShare = 0.05F;  ///< pixels below this are left to the background
 constexpr int kMargin_px = 16;        ///< around the votes: what snapping may look at
 

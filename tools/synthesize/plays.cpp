@@ -10,9 +10,9 @@
 namespace sediment::synthetic {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Directions of a person's front.
-constexpr double kToRight = kPi / 2, kToLeft = -kPi / 2, kToDesks = kPi, kToCamera = 0;
+constexpr double kToRight = std::numbers::pi / 2, kToLeft = -std::numbers::pi / 2,
+                 kToDesks = std::numbers::pi, kToCamera = 0;
 
 int add_chair(Workshop& w, const std::string& name, Rgb color, const Pose& pose = {}) {
   return w.add(name, "chair", true, moved(office_chair(w, color), pose));
@@ -23,7 +23,7 @@ CameraMotion before_desks(const Stage& stage) {
 }
 
 void add_walkers(Workshop& w) {
-  add_chair(w, "chair", {.20f, .30f, .58f}, placed({-1.0, 1.12, 0}, kPi + 0.3));
+  add_chair(w, "chair", {.20f, .30f, .58f}, placed({-1.0, 1.12, 0}, std::numbers::pi + 0.3));
   add_person(w, "passer-by",
              {{0, -1.3, 0.15, kToRight},
               {3.2, 1.7, 0.2, kToRight},
@@ -59,8 +59,8 @@ double smooth_step(double x) {
 
 CameraMotion play_static(Stage stage) {
   furnish(stage.workshop, {});
-  add_chair(stage.workshop, "chair", {.20f, .30f, .58f}, placed({-1.0, 1.12, 0}, kPi + 0.3));
-  add_chair(stage.workshop, "chair", {.16f, .48f, .46f}, placed({0.8, 1.0, 0}, kPi - 0.6));
+  add_chair(stage.workshop, "chair", {.20f, .30f, .58f}, placed({-1.0, 1.12, 0}, std::numbers::pi + 0.3));
+  add_chair(stage.workshop, "chair", {.16f, .48f, .46f}, placed({0.8, 1.0, 0}, std::numbers::pi - 0.6));
   return before_desks(stage);
 }
 
@@ -97,7 +97,7 @@ CameraMotion play_sitting(Stage stage) {
 CameraMotion play_carried_box(Stage stage) {
   Workshop& w = stage.workshop;
   furnish(w, {});
-  add_chair(w, "chair", {.20f, .30f, .58f}, placed({-1.35, 1.05, 0}, kPi + 0.3));
+  add_chair(w, "chair", {.20f, .30f, .58f}, placed({-1.35, 1.05, 0}, std::numbers::pi + 0.3));
   constexpr double kHalfHeight = 0.13;
   // From the left desk round the middle of the room to the right desk, and after a while back again.
   const auto carrier = add_person(w, "carrier",
@@ -147,7 +147,7 @@ CameraMotion play_crowd(Stage stage) {
   }
   const CameraMotion hand = handheld(stage.motion_seed, {0.05, -1.3, 1.4}, 0, -0.15);
   return [=](double t) {
-    const double roll = 80 * kPi / 180 * smooth_step((t - 0.1 * end) / (0.4 * end)) *
+    const double roll = 80 * std::numbers::pi / 180 * smooth_step((t - 0.1 * end) / (0.4 * end)) *
                         (1 - smooth_step((t - 0.5 * end) / (0.4 * end)));
     return hand(t) * rotation_from({0, 0, roll});
   };
@@ -155,12 +155,12 @@ CameraMotion play_crowd(Stage stage) {
 
 CameraMotion play_loop(Stage stage) {
   furnish(stage.workshop, {});
-  add_chair(stage.workshop, "chair", {.20f, .30f, .58f}, placed({-1.0, 1.12, 0}, kPi + 0.3));
+  add_chair(stage.workshop, "chair", {.20f, .30f, .58f}, placed({-1.0, 1.12, 0}, std::numbers::pi + 0.3));
   add_chair(stage.workshop, "chair", {.16f, .48f, .46f}, placed({-0.6, -1.35, 0}, 0.4));
   const double duration = stage.duration_s;
   const CameraMotion sway = handheld(stage.motion_seed, {}, 0, 0);
   return [=](double t) {
-    const double angle = 2 * kPi * t / duration;
+    const double angle = 2 * std::numbers::pi * t / duration;
     // On a ring about the middle of the room, looking outward and ahead.
     Pose ring = looking({0.95 * std::sin(angle), 0.75 * std::cos(angle) - 0.15, 1.4}, angle + 0.35, -0.2, 0);
     const Pose small = sway(t);

@@ -41,25 +41,29 @@ bool inked(const Item& item, double u, double v) {
   return glyph >> (20 + 3 * row + column) & 1;
 }
 
-Rgb photo(const Item& item, double u, double v, double texel) {
-  const double tone = fractal_noise(item.seed, u, v, 0.12, std::max(2 * texel, 0.006), 0.7);
+Rgb photo(const Item& item, const FractalNoise& tones, double u, double v, double texel) {
+  const double tone = tones.at(u, v, std::max(2 * texel, 0.006));
   const double hill = item.v + item.height * (0.55 + 0.2 * plane_noise(item.seed + 5, u / 0.1, 0.5));
   const Rgb sky = blend(item.color, {.85f, .9f, .97f}, 0.6), ground = 0.6f * item.color;
   return static_cast<float>(1 + 0.28 * tone) * (v < hill ? sky : ground);
 }
 
 Pattern print(Rgb background, std::vector<Item> items) {
+  std::vector<FractalNoise> tones;  // of each item
+  for (const Item& item : items) tones.emplace_back(item.seed, 0.12, 0.7);
   const auto shared = std::make_shared<const std::vector<Item>>(std::move(items));
+  const auto shared_tones = std::make_shared<const std::vector<FractalNoise>>(std::move(tones));
   return [=](double u, double v, double texel) {
     Rgb color = background;
-    for (const Item& item : *shared) {
+    for (std::size_t i = 0; i < shared->size(); ++i) {
+      const Item& item = (*shared)[i];
       const double x = u - item.u, y = v - item.v;
       if (x < 0 || y < 0 || x >= item.width || y >= item.height) continue;
       if (item.mark == Mark::field) color = item.color;
       if (item.mark == Mark::disc && std::hypot(2 * x / item.width - 1, 2 * y / item.height - 1) < 1)
         color = item.color;
       if (item.mark == Mark::text && inked(item, u, v)) color = item.color;
-      if (item.mark == Mark::photo) color = photo(item, u, v, texel);
+      if (item.mark == Mark::photo) color = photo(item, (*shared_tones)[i], u, v, texel);
     }
     return color;
   };

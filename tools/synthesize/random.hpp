@@ -6,14 +6,14 @@ namespace sediment::synthetic {
 
 /// Counter-based random numbers: a value depends on its coordinates alone, never on the order in which values
 /// are drawn, so that threads cannot change a picture.
-inline std::uint64_t mix(std::uint64_t x) {  // finaliser of splitmix64 (Steele, Lea, Flood 2014)
+constexpr std::uint64_t mix(std::uint64_t x) {  // finaliser of splitmix64 (Steele, Lea, Flood 2014)
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
   return x ^ (x >> 31);
 }
 
-inline std::uint64_t hash(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0) {
+constexpr std::uint64_t hash(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0) {
   return mix(mix(mix(seed ^ a * 0xd1342543de82ef95u) ^ b * 0xaf251af3b0f025b5u) ^ c);
 }
 

@@ -107,17 +107,20 @@ void Renderer::paint(Work& work, int tile_idx) const {
 /// Pixels with another face beside them.
 std::vector<int> Renderer::edge_pixels(const Work& work, int tile_idx) const {
   const cv::Mat &solid = work.image.solid, &face = work.image.face;
-  const auto same = [&](int v, int u, int v2, int u2) {
-    if (v2 < 0 || u2 < 0 || v2 >= camera_.height || u2 >= camera_.width) return true;
-    return solid.at<int>(v, u) == solid.at<int>(v2, u2) &&
-           face.at<std::uint8_t>(v, u) == face.at<std::uint8_t>(v2, u2);
-  };
   std::vector<int> pixels;
   const cv::Rect area = area_of(tile_idx);
-  for (int v = area.y; v < area.br().y; ++v)
-    for (int u = area.x; u < area.br().x; ++u)
-      if (!same(v, u, v, u - 1) || !same(v, u, v, u + 1) || !same(v, u, v - 1, u) || !same(v, u, v + 1, u))
-        pixels.push_back(v * camera_.width + u);
+  for (int v = area.y; v < area.br().y; ++v) {
+    const int up = std::max(v - 1, 0), down = std::min(v + 1, camera_.height - 1);
+    const int *solids = solid.ptr<int>(v), *above = solid.ptr<int>(up), *below = solid.ptr<int>(down);
+    const auto *faces = face.ptr(v), *faces_above = face.ptr(up), *faces_below = face.ptr(down);
+    for (int u = area.x; u < area.br().x; ++u) {
+      const int left = std::max(u - 1, 0), right = std::min(u + 1, camera_.width - 1);
+      const int differs = (solids[u] ^ solids[left]) | (solids[u] ^ solids[right]) | (solids[u] ^ above[u]) |
+                          (solids[u] ^ below[u]) | (faces[u] ^ faces[left]) | (faces[u] ^ faces[right]) |
+                          (faces[u] ^ faces_above[u]) | (faces[u] ^ faces_below[u]);
+      if (differs != 0) pixels.push_back(v * camera_.width + u);
+    }
+  }
   return pixels;
 }
 

@@ -18,14 +18,14 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));
 using Texel = std::array<std::uint8_t, 4>;
 
 /// Two texels, eight channels.
-Word8 pair_of(const Texel& left, const Texel& right) {
+[[gnu::always_inline]] inline Word8 pair_of(const Texel& left, const Texel& right) {
   Byte8 bytes;
   std::memcpy(&bytes, left.data(), 4);
   std::memcpy(reinterpret_cast<char*>(&bytes) + 4, right.data(), 4);
   return __builtin_convertvector(bytes, Word8);
 }
 
-int floor_of(float x) {
+[[gnu::always_inline]] inline int floor_of(float x) {
   const int towards_zero = static_cast<int>(x);
   return towards_zero - (x < static_cast<float>(towards_zero));
 }
@@ -42,7 +42,7 @@ int texels_along(double length_m, const Sheet& sheet) {
 /// Four channels, 0 .. 255 * 256, with weights of 1/256. `u`, `v` in texels of the level, whose centres are
 /// at half integers.
 template <class Level>
-Float4 bilinear(const Level& level, bool repeat, float u, float v) {
+[[gnu::always_inline]] inline Float4 bilinear(const Level& level, bool repeat, float u, float v) {
   u -= 0.5f, v -= 0.5f;
   int left = floor_of(u), top = floor_of(v);
   const int fu = static_cast<int>((u - static_cast<float>(left)) * 256),
@@ -106,7 +106,8 @@ Texture::Level Texture::halved(const Level& fine) {
   return coarse;
 }
 
-Rgb Texture::sample(float u_m, float v_m, const Footprint& footprint) const {
+[[gnu::target_clones("avx2", "default")]] Rgb Texture::sample(float u_m, float v_m,
+                                                              const Footprint& footprint) const {
   const float ax = footprint.du_dx * texels_per_m_u_, ay = footprint.dv_dx * texels_per_m_v_;
   const float bx = footprint.du_dy * texels_per_m_u_, by = footprint.dv_dy * texels_per_m_v_;
   const float a2 = ax * ax + ay * ay, b2 = bx * bx + by * by;

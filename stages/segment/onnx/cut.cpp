@@ -9,15 +9,13 @@
 namespace sediment::segment::onnx {
 namespace {
 
-constexpr std::uint64_t kFloat32 = 1;
-
 std::string tensor_message(const std::string& name, const std::vector<int>& shape) {
   WireWriter dimensions;
   for (const int size : shape)
     dimensions.bytes(field::kShapeDimension,
                      WireWriter().number(field::kDimensionValue, static_cast<std::uint64_t>(size)).message());
   WireWriter type;
-  type.number(field::kTensorTypeElement, kFloat32);
+  type.number(field::kTensorTypeElement, std::uint64_t{kFloat32});
   type.bytes(field::kTensorTypeShape, dimensions.message());
   return WireWriter()
       .bytes(field::kValueName, name)

@@ -9,7 +9,7 @@
 namespace sediment::segment::onnx {
 namespace {
 
-[[noreturn]] void fail(const Model& model, const std::string& what) {
+[[noreturn]] void no_head(const Model& model, const std::string& what) {
   throw std::runtime_error(model.file.string() + ": " + what +
                            ": the graph does not end in the head of a YOLOv8-seg or YOLO11-seg export, "
                            "the engine opencv cannot run it");
@@ -59,9 +59,9 @@ Head find_head(const Model& model, const Layout& layout) {
     return node != nullptr && node->op_type == "Sigmoid";
   });
   if (scores == parts.begin() || parts.end() - scores != 2)
-    fail(model, layout.anchors + " is not made of boxes, class scores and mask coefficients");
+    no_head(model, layout.anchors + " is not made of boxes, class scores and mask coefficients");
   const Node* softmax = nearest_before(model, parts.front(), "Softmax");
-  if (softmax == nullptr) fail(model, "no softmax over the bins of the boxes before " + layout.anchors);
+  if (softmax == nullptr) no_head(model, "no softmax over the bins of the boxes before " + layout.anchors);
 
   Head head;
   head.bins = before(model, softmax->inputs.at(0), true);

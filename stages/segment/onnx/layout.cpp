@@ -6,7 +6,6 @@
 namespace sediment::segment::onnx {
 namespace {
 
-constexpr int kFloat32 = 1;
 constexpr std::int64_t kBoxValues = 4;
 
 [[noreturn]] void fail(const Model& model, const std::string& what) {

@@ -18,6 +18,8 @@ struct Node {
   std::string_view raw;                           ///< the field of the graph, key included
 };
 
+constexpr int kFloat32 = 1;  ///< of TensorProto.DataType
+
 /// An input or output of the graph.
 struct Tensor {
   std::string name;
