@@ -6,6 +6,13 @@ target_include_directories(sediment_rules INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_options(sediment_rules INTERFACE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off
                        $<$<BOOL:${SEDIMENT_WARNINGS_AS_ERRORS}>:-Werror>)
 
+# sediment_compile_together(TARGET): with SEDIMENT_TOGETHER its headers, not its own code, being what takes the time, eight
+# files are compiled as one. Not for what computes: the compiler inlines less in large files (synthesize became a quarter
+# slower).
+function(sediment_compile_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${SEDIMENT_TOGETHER} UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
+
 # sediment_library(NAME LINKS target... SOURCES file...)
 function(sediment_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
@@ -43,6 +50,7 @@ function(sediment_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINKS" ${ARGN})
   add_executable(test_${name} ${arg_SOURCES})
   target_link_libraries(test_${name} PRIVATE sediment_rules test_support ${arg_LINKS})
+  sediment_compile_together(test_${name})
   catch_discover_tests(test_${name} TEST_PREFIX "${name}: " DISCOVERY_MODE PRE_TEST
                        PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: needs" TIMEOUT 600)
 endfunction()

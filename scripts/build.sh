@@ -32,6 +32,9 @@ if command -v ccache >/dev/null; then
   options+=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1  # one cache for all checkouts
 fi
+# On a new machine nothing is known from before: fewer, larger files to compile. The build folder keeps that choice.
+cached=$(ccache --print-stats 2>/dev/null | awk '$1 == "files_in_cache" { print $2 }') || true
+if [ ! -e "build/$preset/CMakeCache.txt" ] && [ "${cached:-0}" -lt 100 ]; then options+=(-DSEDIMENT_TOGETHER=ON); fi
 
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT

@@ -5,6 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "pipeline/artifacts/file_bytes.hpp"
+#include "tests/support/same_image.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace sediment;
@@ -19,10 +20,6 @@ cv::Mat noise(int type) {
   return image;
 }
 
-bool same(const cv::Mat& a, const cv::Mat& b) {
-  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
-}
-
 }  // namespace
 
 TEST_CASE("images survive writing and reading, and equal images give equal files") {
@@ -34,7 +31,7 @@ TEST_CASE("images survive writing and reading, and equal images give equal files
   const cv::Mat read = type == CV_8UC1   ? read_gray8(file)
                        : type == CV_8UC3 ? read_color(file)
                                          : read_gray16(file);
-  CHECK(same(read, image));
+  CHECK(test::same_image(read, image));
   const std::string bytes = read_bytes(file);
   write_png(file, image.clone());
   CHECK(read_bytes(file) == bytes);

@@ -7,6 +7,7 @@
 #include "pipeline/artifacts/file_bytes.hpp"
 #include "pipeline/artifacts/image_file.hpp"
 #include "tests/support/needs.hpp"
+#include "tests/support/same_image.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiny_sequence.hpp"
 
@@ -35,10 +36,6 @@ struct Written {
   std::filesystem::path yaml;
 };
 
-bool same(const cv::Mat& a, const cv::Mat& b) {
-  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
-}
-
 }  // namespace
 
 TEST_CASE("a written sequence reads back pixel for pixel") {
@@ -54,8 +51,8 @@ TEST_CASE("a written sequence reads back pixel for pixel") {
     const Frame frame = sequence.frame(i);
     CHECK(frame.frame_idx == i);
     CHECK(frame.stamp == written.sequence.frames[i].stamp);
-    CHECK(same(frame.color, written.sequence.frames[i].color));
-    CHECK(same(frame.depth, written.sequence.frames[i].depth));
+    CHECK(test::same_image(frame.color, written.sequence.frames[i].color));
+    CHECK(test::same_image(frame.depth, written.sequence.frames[i].depth));
     CHECK(sequence.entry(i).color_line == static_cast<int>(i) + 2);
   }
 }
