@@ -6,7 +6,7 @@
 #include "tests/stages/interaction-mask/random_scene.hpp"
 
 using namespace sediment::interaction_mask;
-using namespace sediment::interaction_mask::test;
+using namespace sediment::test;
 
 TEST_CASE("contact sums equal the double loop over all pixels on 1000 random scenes") {
   int with_pairs = 0, without_pairs = 0;

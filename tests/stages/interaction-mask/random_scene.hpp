@@ -6,7 +6,7 @@
 
 #include "stages/interaction-mask/contact.hpp"
 
-namespace sediment::interaction_mask::test {
+namespace sediment::test {
 
 /// A small picture of instances 1 .. count as overlapping ellipses, boxes, lines and speckle, and a depth
 /// image with holes. Seeds cover touching, enclosed, distant and empty instances, all depth and no depth.
@@ -41,15 +41,15 @@ inline RandomScene random_scene(unsigned seed) {
 }
 
 /// The published definition, word by word: all pixels of the one against all pixels of the other.
-inline ContactSum brute_force(const cv::Mat& ids, const cv::Mat& depth, int dynamic_id, int static_id,
-                              double radius_px) {
+inline interaction_mask::ContactSum brute_force(const cv::Mat& ids, const cv::Mat& depth, int dynamic_id,
+                                                int static_id, double radius_px) {
   std::vector<cv::Point> dynamic, fixed;
   for (int y = 0; y < ids.rows; ++y)
     for (int x = 0; x < ids.cols; ++x) {
       if (ids.at<std::uint16_t>(y, x) == dynamic_id) dynamic.emplace_back(x, y);
       if (ids.at<std::uint16_t>(y, x) == static_id) fixed.emplace_back(x, y);
     }
-  ContactSum sum;
+  interaction_mask::ContactSum sum;
   for (const cv::Point a : dynamic)
     for (const cv::Point b : fixed) {
       if ((a - b).dot(a - b) > radius_px * radius_px) continue;
@@ -61,4 +61,4 @@ inline ContactSum brute_force(const cv::Mat& ids, const cv::Mat& depth, int dyna
   return sum;
 }
 
-}  // namespace sediment::interaction_mask::test
+}  // namespace sediment::test
