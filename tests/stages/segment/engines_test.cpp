@@ -9,7 +9,7 @@
 
 using namespace sediment;
 using namespace sediment::segment;
-using segment::test::TinyNetwork;
+using test::TinyNetwork;
 
 namespace {
 
@@ -84,7 +84,7 @@ TEST_CASE("every layout of an export gives the exact class, score, box and mask 
           CHECK(objects[0].class_name == "red thing");
           CHECK(objects[1].class_name == "it's green");
           CHECK(objects[0].score == Approx(1 / (1 + std::exp(-10.0))));
-          const cv::Rect box = segment::test::box_at({32, 0}, image.size());
+          const cv::Rect box = test::box_at({32, 0}, image.size());
           CHECK(objects[0].box_px[0] == Approx(box.x).margin(1e-3));
           CHECK(objects[0].box_px[1] == Approx(box.y).margin(1e-3));
           CHECK(objects[0].box_px[2] == Approx(box.br().x).margin(1e-3));

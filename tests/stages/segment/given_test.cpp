@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kFrames = 3;
+constexpr int kGivenFrames = 3;
 const cv::Rect kPerson(10, 20, 8, 12);
 
 /// Three frames of 64 x 48 pixels, and a folder for masks.
@@ -26,7 +26,7 @@ struct Given {
   Sequence sequence;
 
   Given() {
-    test::write_sequence(folder / "sequence", test::tiny_sequence(kFrames));
+    test::write_sequence(folder / "sequence", test::tiny_sequence(kGivenFrames));
     sequence = Sequence::open(folder / "sequence/sequence.yaml");
     fs::create_directories(masks);
   }
@@ -43,7 +43,7 @@ struct Given {
   }
   void write_artifact(const std::string& class_name) const {
     MasksWriter writer(masks);
-    for (std::size_t i = 0; i < kFrames; ++i) {
+    for (std::size_t i = 0; i < kGivenFrames; ++i) {
       InstanceMask mask{cv::Mat::zeros(48, 64, CV_16UC1),
                         {{3, class_name, 0.7, {10, 20, 18, 32}}, {8, "chair", 0.6, {}}}};
       mask.ids(kPerson) = 3;
@@ -56,7 +56,7 @@ struct Given {
     Json json = {{"images", Json::array()},
                  {"categories", {{{"id", 1}, {"name", "person"}}, {{"id", 62}, {"name", "chair"}}}},
                  {"annotations", Json::array()}};
-    for (int i = 0; i < kFrames; ++i)
+    for (int i = 0; i < kGivenFrames; ++i)
       json["images"].push_back({{"id", i},
                                 {"file_name", stamp(static_cast<std::size_t>(i)) + ".png"},
                                 {"width", 64},
@@ -102,7 +102,7 @@ TEST_CASE("binary images give one person per frame, or none") {
 TEST_CASE("binary images may lie in a subfolder masks and be named as the colour image") {
   const Given given;
   fs::create_directories(given.masks / "masks");
-  for (std::size_t i = 0; i < kFrames; ++i) {
+  for (std::size_t i = 0; i < kGivenFrames; ++i) {
     given.write_binary(i);
     fs::rename(given.masks / (given.stamp(i) + ".png"),
                given.masks / "masks" / (given.sequence.entry(i).color.stem().string() + ".png"));

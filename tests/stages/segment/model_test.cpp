@@ -12,8 +12,8 @@
 using namespace sediment;
 using namespace sediment::segment;
 using Catch::Matchers::Contains;
-using sediment::segment::test::TinyNetwork;
 using sediment::test::TemporaryFolder;
+using sediment::test::TinyNetwork;
 
 namespace {
 
@@ -75,7 +75,7 @@ TEST_CASE("a network that cannot be used is refused with what was expected and f
 
 TEST_CASE("a file that is no network, or is cut off anywhere, is refused by name") {
   const TemporaryFolder folder;
-  const std::string whole = segment::test::onnx_file({});
+  const std::string whole = test::onnx_file({});
   write(folder / "empty.onnx", "");
   CHECK_THROWS_WITH(onnx::Model(folder / "empty.onnx"), Contains("empty.onnx is no ONNX network"));
   write(folder / "text.onnx", "this is a text, not a network");
@@ -97,7 +97,7 @@ TEST_CASE("a file that is no network, or is cut off anywhere, is refused by name
 
 TEST_CASE("damaged networks are refused or run, and never crash") {
   const TemporaryFolder folder;
-  const std::string whole = segment::test::onnx_file({});
+  const std::string whole = test::onnx_file({});
   std::mt19937 random(3);
   for (int i = 0; i < 1000; ++i) {
     std::string bytes = whole;

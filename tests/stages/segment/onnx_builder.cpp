@@ -4,11 +4,11 @@
 
 #include "stages/segment/onnx/model_fields.hpp"
 
-namespace sediment::segment::test {
+namespace sediment::test {
 namespace {
 
-namespace field = onnx::field;
-using onnx::WireWriter;
+namespace field = segment::onnx::field;
+using segment::onnx::WireWriter;
 
 constexpr std::uint64_t kFloat = 1, kInt64 = 7, kAttributeInt = 2, kAttributeInts = 7;
 
@@ -100,4 +100,4 @@ std::string OnnxBuilder::file() const {
   return model.copy(model_tail_.message()).message();
 }
 
-}  // namespace sediment::segment::test
+}  // namespace sediment::test

@@ -6,7 +6,7 @@
 
 #include "stages/segment/onnx/wire.hpp"
 
-namespace sediment::segment::test {
+namespace sediment::test {
 
 /// Writes ONNX graphs node by node. Tensors are known by their names.
 class OnnxBuilder {
@@ -31,7 +31,7 @@ class OnnxBuilder {
   std::string file() const;
 
  private:
-  onnx::WireWriter graph_, model_tail_;
+  segment::onnx::WireWriter graph_, model_tail_;
 };
 
-}  // namespace sediment::segment::test
+}  // namespace sediment::test

@@ -16,7 +16,7 @@
 
 using namespace sediment;
 using Catch::Matchers::Contains;
-using segment::test::TinyNetwork;
+using test::TinyNetwork;
 
 namespace {
 

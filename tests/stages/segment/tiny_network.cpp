@@ -4,7 +4,7 @@
 
 #include "tests/stages/segment/onnx_builder.hpp"
 
-namespace sediment::segment::test {
+namespace sediment::test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -204,4 +204,4 @@ cv::Rect box_at(cv::Point corner, cv::Size image) {
   return cv::Rect(corner.x, corner.y, 64, 48) & cv::Rect({}, image);
 }
 
-}  // namespace sediment::segment::test
+}  // namespace sediment::test

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace sediment::segment::test {
+namespace sediment::test {
 
 /// A network in the layout of a YOLOv8-seg export, without weights that were learned: it finds blocks of 32 x
 /// 32 pixels of pure red (class 0) and pure green (class 1) on black, exactly. In words: the anchor of stride
@@ -31,4 +31,4 @@ void write_onnx(const std::filesystem::path& file, const TinyNetwork& network);
 /// Box of the object whose cell (of 32 x 32 pixels) begins at `corner`, in input pixels, clipped to `image`.
 cv::Rect box_at(cv::Point corner, cv::Size image);
 
-}  // namespace sediment::segment::test
+}  // namespace sediment::test
