@@ -17,13 +17,30 @@ constexpr double kOccupiedThreshold = 0.65;
 /// Below the (255 - 205) / 255 = 0.196 of an unknown cell: with nav2's default of 0.25 it would load as free.
 constexpr double kFreeThreshold = 0.19;
 
-std::string yaml_of(const GridMap& map) {
+std::string yaml_of(const GridMap& map, const char* image, const char* mode) {
   char text[512];
   std::snprintf(text, sizeof text,
-                "image: map.pgm\nmode: trinary\nresolution: %.9g\norigin: [%.9g, %.9g, 0]\nnegate: 0\n"
+                "image: %s\nmode: %s\nresolution: %.9g\norigin: [%.9g, %.9g, 0]\nnegate: 0\n"
                 "occupied_thresh: %.2f\nfree_thresh: %.2f\n",
-                map.resolution_m, map.origin_x_m, map.origin_y_m, kOccupiedThreshold, kFreeThreshold);
+                image, mode, map.resolution_m, map.origin_x_m, map.origin_y_m, kOccupiedThreshold,
+                kFreeThreshold);
   return text;
+}
+
+/// A binary PGM of one pixel a cell, highest y first.
+template <class PixelOf>
+void write_image(const std::filesystem::path& file, const GridMap& map, const PixelOf& pixel_of) {
+  if (map.width <= 0 || map.height <= 0 ||
+      map.cells.size() != static_cast<std::size_t>(map.width) * map.height)
+    throw std::runtime_error("cannot write " + file.string() + ": " + std::to_string(map.width) + " x " +
+                             std::to_string(map.height) + " cells expected, " +
+                             std::to_string(map.cells.size()) + " found");
+  std::string image = "P5\n" + std::to_string(map.width) + " " + std::to_string(map.height) + "\n255\n";
+  for (int y = map.height - 1; y >= 0; --y)
+    for (int x = 0; x < map.width; ++x)
+      image.push_back(pixel_of(static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                               static_cast<std::size_t>(x)));
+  write_bytes(file, {image});
 }
 
 std::string ground_of(const GridMap& map) {
@@ -83,17 +100,19 @@ void read_cells(const std::filesystem::path& image_file, const Thresholds& thres
 }  // namespace
 
 void write_grid_map(const std::filesystem::path& folder, const GridMap& map) {
-  if (map.width <= 0 || map.height <= 0 ||
-      map.cells.size() != static_cast<std::size_t>(map.width) * map.height)
-    throw std::runtime_error("cannot write " + (folder / "map.pgm").string() + ": " +
-                             std::to_string(map.width) + " x " + std::to_string(map.height) +
-                             " cells expected, " + std::to_string(map.cells.size()) + " found");
-  std::string image = "P5\n" + std::to_string(map.width) + " " + std::to_string(map.height) + "\n255\n";
-  for (int y = map.height - 1; y >= 0; --y)
-    for (int x = 0; x < map.width; ++x) image.push_back(static_cast<char>(map.at(x, y)));
-  write_bytes(folder / "map.pgm", {image});
-  write_bytes(folder / "map.yaml", {yaml_of(map)});
+  write_image(folder / "map.pgm", map, [&](std::size_t cell) { return static_cast<char>(map.cells[cell]); });
+  write_bytes(folder / "map.yaml", {yaml_of(map, "map.pgm", "trinary")});
   write_bytes(folder / "ground.json", {ground_of(map)});
+}
+
+void write_cost_mask(const std::filesystem::path& folder, const GridMap& map,
+                     const std::vector<std::uint8_t>& costs) {
+  if (costs.size() != map.cells.size())
+    throw std::runtime_error("cannot write " + (folder / "costs.pgm").string() + ": " +
+                             std::to_string(map.cells.size()) + " costs expected, " +
+                             std::to_string(costs.size()) + " found");
+  write_image(folder / "costs.pgm", map, [&](std::size_t cell) { return static_cast<char>(costs[cell]); });
+  write_bytes(folder / "costs.yaml", {yaml_of(map, "costs.pgm", "raw")});
 }
 
 GridMap read_grid_map(const std::filesystem::path& folder) {

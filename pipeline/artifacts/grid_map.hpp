@@ -31,6 +31,15 @@ struct GridMap {
 /// names the file.
 void write_grid_map(const std::filesystem::path& folder, const GridMap& map);
 
+/// Cell of a cost mask about which nothing is known; costs are 0 .. 100.
+inline constexpr std::uint8_t kNoCost = 255;
+
+/// Adds costs.pgm and costs.yaml to a grid map: one cost a cell, in the order of `map.cells`, as a map of
+/// mode "raw", which nav2 loads as a filter mask: 0 .. 100 are costs, 255 is unknown. Throws
+/// std::runtime_error that names the file.
+void write_cost_mask(const std::filesystem::path& folder, const GridMap& map,
+                     const std::vector<std::uint8_t>& costs);
+
 /// Reads it as map_server does (thresholds, negate, origin). Throws std::runtime_error that names the file.
 GridMap read_grid_map(const std::filesystem::path& folder);
 

@@ -3,6 +3,7 @@
 #include <octomap/ColorOcTree.h>
 
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -64,16 +65,28 @@ TreeHeader read_header(std::istringstream& stream, std::uint64_t content_bytes) 
 }
 
 std::string leaf_label_text(const std::vector<LeafLabel>& leaf_labels) {
-  std::string text = "key_x,key_y,key_z,depth,label\n";
+  std::string text = "key_x,key_y,key_z,depth,label,confidence,label_2,confidence_2,label_3,confidence_3\n";
   char buffer[16];
   const auto append = [&](std::uint32_t value, char end) {
     text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
     text.push_back(end);
   };
+  const auto append_share = [&](float value, char end) {
+    const int thousandths = static_cast<int>(std::lround(value * 1000));
+    text.push_back(static_cast<char>('0' + thousandths / 1000));
+    text.push_back('.');
+    for (const int place : {100, 10, 1}) text.push_back(static_cast<char>('0' + thousandths / place % 10));
+    text.push_back(end);
+  };
   for (const LeafLabel& leaf : leaf_labels) {
     for (const std::uint16_t key : leaf.key) append(key, ',');
     append(leaf.depth, ',');
-    append(leaf.label, '\n');
+    append(leaf.label, ',');
+    append_share(leaf.confidence, ',');
+    for (const OtherLabel& other : leaf.others) {
+      append(other.label, ',');
+      append_share(other.confidence, &other == &leaf.others.back() ? '\n' : ',');
+    }
   }
   return text;
 }
@@ -86,7 +99,11 @@ void write_octree(const std::filesystem::path& folder, octomap::ColorOcTree& tre
   write_tree(folder / "map.ot", kTreeLine, tree, [&](std::ostream& stream) { tree.writeData(stream); });
   write_bytes(folder / "leaf_labels.csv", {leaf_label_text(leaf_labels)});
   std::set<std::uint32_t> present;
-  for (const LeafLabel& leaf : leaf_labels) present.insert(leaf.label);
+  for (const LeafLabel& leaf : leaf_labels) {
+    present.insert(leaf.label);
+    for (const OtherLabel& other : leaf.others)
+      if (other.confidence > 0) present.insert(other.label);
+  }
   write_label_csv(folder / "labels.csv", labels, present);
   // Last, as it rounds the tree to occupied and free and prunes it.
   tree.toMaxLikelihood();
@@ -115,13 +132,20 @@ std::vector<LeafLabel> read_leaf_labels(const std::filesystem::path& folder) {
   std::vector<LeafLabel> leaf_labels;
   read_rows(folder / "leaf_labels.csv", [&](const TextRow& row) {
     if (row.line == 1 && row.columns[0] == "key_x") return;
-    if (row.columns.size() != 5)
-      throw std::runtime_error("expected 5 columns, found " + std::to_string(row.columns.size()));
+    if (row.columns.size() != 5 && row.columns.size() != 10)
+      throw std::runtime_error("expected 5 or 10 columns, found " + std::to_string(row.columns.size()));
     LeafLabel leaf;
     for (int i = 0; i < 3; ++i)
       leaf.key[i] = static_cast<std::uint16_t>(expect_whole(row.columns[i], "a key", 65535));
     leaf.depth = static_cast<std::uint8_t>(expect_whole(row.columns[3], "depth", 16));
     leaf.label = static_cast<std::uint32_t>(expect_whole(row.columns[4], "label", UINT32_MAX));
+    if (row.columns.size() == 10) {
+      leaf.confidence = static_cast<float>(expect_number(row.columns[5], "a confidence"));
+      for (std::size_t i = 0; i < leaf.others.size(); ++i)
+        leaf.others[i] = {
+            static_cast<std::uint32_t>(expect_whole(row.columns[6 + 2 * i], "label", UINT32_MAX)),
+            static_cast<float>(expect_number(row.columns[7 + 2 * i], "a confidence"))};
+    }
     leaf_labels.push_back(leaf);
   });
   return leaf_labels;

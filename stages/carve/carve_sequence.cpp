@@ -2,17 +2,10 @@
 
 #include <stdexcept>
 
+#include "pipeline/scene/frame_poses.hpp"
+
 namespace sediment::carve {
 namespace {
-
-/// A frame's own pose; else one interpolated between neighbours that are close. A lost frame gets no other
-/// frame's.
-std::optional<Pose> pose_of(const Trajectory& trajectory, double stamp_s) {
-  constexpr double kSameStamp_s = 1e-4, kGap_s = 0.04;
-  if (const auto idx = nearest_pose(trajectory, stamp_s, kSameStamp_s))
-    return trajectory[*idx].world_from_camera;
-  return pose_at(trajectory, stamp_s, kGap_s);
-}
 
 cv::Mat dynamic_of(const std::optional<DynamicMasksReader>& dynamic, const std::string& stamp,
                    const cv::Size& size) {
@@ -32,9 +25,13 @@ Carved carve_cloud(const LabelledCloud& cloud, const Sequence& sequence, const T
                    const Parameters& parameters, const std::function<void()>& advance) {
   Carved carved;
   std::vector<Votes> votes(cloud.size());
+  std::vector<FrameStamp> stamps;
+  for (std::size_t idx = 0; idx < sequence.size(); ++idx)
+    stamps.push_back({sequence.entry(idx).stamp, sequence.entry(idx).stamp_s});
+  const FramePoses poses(stamps, trajectory);
   for (std::size_t idx = 0; idx < sequence.size(); idx += static_cast<std::size_t>(every_nth)) {
     const SequenceEntry& entry = sequence.entry(idx);
-    if (const auto pose = pose_of(trajectory, entry.stamp_s)) {
+    if (const auto pose = poses.pose_of(stamps[idx])) {
       DepthView view{pose->inverse(), sequence.depth(idx), {}};
       view.dynamic = dynamic_of(dynamic, entry.stamp, view.depth.size());
       add_votes(cloud, sequence.camera(), view, parameters, votes);

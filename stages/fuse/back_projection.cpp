@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -44,6 +45,34 @@ std::pair<int, int> depth_units(const Projection& projection, double depth_scale
           static_cast<int>(std::floor(units(projection.max_depth_m)))};
 }
 
+/// Tells pixels whose depth is a step (Projection::max_incidence_deg).
+class StepFinder {
+ public:
+  StepFinder(const cv::Mat& depth, const Camera& camera, const Projection& projection)
+      : depth_(depth), unit_m_(1 / camera.depth_scale), active_(projection.max_incidence_deg < 90) {
+    // A surface at this angle gains so much depth from pixel to pixel, per metre of depth.
+    slope_ = std::tan(projection.max_incidence_deg * std::numbers::pi / 180) / std::min(camera.fx, camera.fy);
+    noise_ = 3 * std::numbers::sqrt2 * projection.noise;
+  }
+
+  bool is_step(int u, int v) const {
+    if (!active_) return false;
+    const auto* row = depth_.ptr<std::uint16_t>(v);
+    const double z = row[u] * unit_m_, most = z * (slope_ + noise_ * z);
+    const auto differs = [&](std::uint16_t neighbour) {
+      return neighbour != 0 && std::abs(neighbour * unit_m_ - z) > most;
+    };
+    return (u > 0 && differs(row[u - 1])) || (u + 1 < depth_.cols && differs(row[u + 1])) ||
+           (v > 0 && differs(depth_.at<std::uint16_t>(v - 1, u))) ||
+           (v + 1 < depth_.rows && differs(depth_.at<std::uint16_t>(v + 1, u)));
+  }
+
+ private:
+  const cv::Mat& depth_;
+  double unit_m_, slope_ = 0, noise_ = 0;
+  bool active_;
+};
+
 std::uint8_t mix(std::uint8_t image, std::uint8_t paint, int blend_256) {
   return static_cast<std::uint8_t>((image * (256 - blend_256) + paint * blend_256 + 128) >> 8);
 }
@@ -65,6 +94,7 @@ PixelCounts& PixelCounts::operator+=(const PixelCounts& other) {
   visited += other.visited;
   dynamic += other.dynamic;
   out_of_range += other.out_of_range;
+  at_edge += other.at_edge;
   return *this;
 }
 
@@ -82,6 +112,7 @@ PixelCounts back_project(const View& view, const Camera& camera, std::span<const
     return static_cast<std::size_t>(1 + (pixels - 1) / projection.pixel_step);
   };
   cloud.reserve(cloud.size() + per_axis(camera.width) * per_axis(camera.height));
+  const StepFinder steps(view.depth, camera, projection);
   PixelCounts counts;
   for (int v = 0; v < camera.height; v += projection.pixel_step) {
     const auto* color = view.color.ptr<cv::Vec3b>(v);
@@ -97,6 +128,10 @@ PixelCounts back_project(const View& view, const Camera& camera, std::span<const
       }
       if (depth[u] < nearest || depth[u] > farthest) {
         ++counts.out_of_range;
+        continue;
+      }
+      if (steps.is_step(u, v)) {
+        ++counts.at_edge;
         continue;
       }
       const double z = depth[u] * unit_m;

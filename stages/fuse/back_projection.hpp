@@ -16,6 +16,11 @@ struct Projection {
   double max_depth_m = 5.0;  ///< noise grows with the square: about 4 cm here
   int pixel_step = 2;        ///< every n-th column of every n-th row
   double blend = 0.5;        ///< share of the class colour in a labelled point's colour
+  /// Pixels whose depth differs from that of a neighbour (of 4) by more than a surface seen at this angle to
+  /// its normal can explain, three deviations of the noise allowed, are left out: at edges the sensor mixes
+  /// depths, and at grazing angles it errs. 90 keeps all.
+  double max_incidence_deg = 90;
+  double noise = 0.0014;  ///< deviation of a depth at 1 m; grows with the square of the depth
 };
 
 /// The images of one frame. All have the camera's size.
@@ -29,7 +34,9 @@ struct View {
 
 /// What happened to the pixels visited.
 struct PixelCounts {
-  std::uint64_t visited = 0, dynamic = 0, out_of_range = 0;  ///< out of range: no depth, too near or too far
+  std::uint64_t visited = 0, dynamic = 0;
+  std::uint64_t out_of_range = 0;  ///< no depth, too near or too far
+  std::uint64_t at_edge = 0;       ///< or seen at too grazing an angle
   PixelCounts& operator+=(const PixelCounts& other);
 };
 

@@ -4,7 +4,6 @@
 #include <optional>
 #include <set>
 #include <unordered_map>
-#include <unordered_set>
 
 namespace sediment::fuse {
 namespace {
@@ -35,30 +34,6 @@ std::set<std::size_t> frames_of_keyframes(std::span<const FrameStamp> frames, co
   return chosen;
 }
 
-/// Poses and frames, joined by stamp and by time.
-class PoseFinder {
- public:
-  PoseFinder(std::span<const FrameStamp> frames, const Trajectory& trajectory)
-      : trajectory_(trajectory), pose_by_stamp_(index_by_stamp(trajectory)) {
-    for (const FrameStamp& frame : frames) stamps_.insert(frame.stamp);
-  }
-
-  std::optional<Pose> pose_of(const FrameStamp& frame) const {
-    if (const auto same = pose_by_stamp_.find(frame.stamp); same != pose_by_stamp_.end())
-      return trajectory_[same->second].world_from_camera;
-    if (const auto between = pose_at(trajectory_, frame.stamp_s, kLongestGap_s)) return between;
-    const auto nearest = nearest_pose(trajectory_, frame.stamp_s, kTolerance_s);
-    if (nearest && !stamps_.contains(trajectory_[*nearest].stamp))
-      return trajectory_[*nearest].world_from_camera;
-    return std::nullopt;
-  }
-
- private:
-  const Trajectory& trajectory_;
-  std::unordered_map<std::string, std::size_t> pose_by_stamp_;
-  std::unordered_set<std::string> stamps_;
-};
-
 }  // namespace
 
 Selection select_frames(std::span<const FrameStamp> frames, const Trajectory& trajectory,
@@ -72,9 +47,9 @@ Selection select_frames(std::span<const FrameStamp> frames, const Trajectory& tr
   }
 
   Selection selection;
-  const PoseFinder finder(frames, trajectory);
+  const FramePoses poses(frames, trajectory);
   for (const std::size_t frame_idx : chosen) {
-    if (const auto pose = finder.pose_of(frames[frame_idx]))
+    if (const auto pose = poses.pose_of(frames[frame_idx]))
       selection.frames.push_back({frame_idx, *pose});
     else
       selection.without_pose.push_back(frames[frame_idx].stamp);

@@ -39,6 +39,11 @@ int main(int argc, char** argv) {
   stage.tunes("pixel_step", projection.pixel_step, "every n-th pixel of every n-th row", {1, 1000});
   stage.tunes("blend", projection.blend, "share of the class colour in the colour of a labelled point",
               {0, 1});
+  stage.tunes("max_incidence_deg", projection.max_incidence_deg,
+              "pixels on steps of the depth, or on surfaces seen at a larger angle, are left out; 90: none",
+              {1, 90});
+  stage.tunes("noise", projection.noise, "deviation of a depth at 1 m, metres; grows with its square",
+              {0, 1});
   stage.tunes("encoding", parameters.encoding, "of cloud.pcd",
               {{"binary", PcdEncoding::binary},
                {"ascii", PcdEncoding::ascii},
@@ -61,6 +66,7 @@ int main(int argc, char** argv) {
                       {"frames_without_pose", result.frames_without_pose},
                       {"pixels_visited", result.pixels.visited},
                       {"pixels_dynamic", result.pixels.dynamic},
-                      {"pixels_out_of_range", result.pixels.out_of_range}};
+                      {"pixels_out_of_range", result.pixels.out_of_range},
+                      {"pixels_at_edges", result.pixels.at_edge}};
   });
 }

@@ -1,11 +1,15 @@
 #include "stages/project2d/grid_projection.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
+
+#include "stages/project2d/grid_rules.hpp"
 
 namespace sediment::project2d {
 namespace {
@@ -75,10 +79,55 @@ GridMap empty_grid(const CellRange& range, const GridParameters& parameters) {
   return map;
 }
 
+/// By cell: points in the band, and whether the ground was seen.
+struct CellCounts {
+  std::vector<std::int32_t> in_band;
+  std::vector<std::uint8_t> ground_seen;
+};
+
+CellCounts count_points(const std::vector<Vec3>& points, const GridMap& map, const CellRange& range,
+                        const GridParameters& parameters, GridStatistics& statistics) {
+  CellCounts counts{std::vector<std::int32_t>(map.cells.size(), 0),
+                    std::vector<std::uint8_t>(map.cells.size(), 0)};
+  for (const Vec3 p : points) {
+    const auto x = static_cast<std::size_t>(std::floor(p.x / parameters.resolution) - range.min_x);
+    const auto y = static_cast<std::size_t>(std::floor(p.y / parameters.resolution) - range.min_y);
+    const std::size_t cell = y * static_cast<std::size_t>(map.width) + x;
+    if (p.z >= parameters.min_height) {
+      ++statistics.points_in_band;
+      ++counts.in_band[cell];
+    } else {
+      ++statistics.points_below;
+      if (p.z > -parameters.min_height) counts.ground_seen[cell] = 1;
+    }
+  }
+  return counts;
+}
+
+void mark_cells(GridMap& map, const CellCounts& counts, const GridParameters& parameters,
+                const FreeShare& free_share) {
+  tbb::parallel_for(0, map.height, [&](int y) {
+    for (int x = 0; x < map.width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * map.width + x;
+      const auto is_free_by_rays = [&] {
+        return free_share &&
+               free_share(map.origin_x_m + (x + 0.5) * map.resolution_m,
+                          map.origin_y_m + (y + 0.5) * map.resolution_m) >= parameters.min_free_share;
+      };
+      if (counts.in_band[i] >= parameters.min_points)
+        map.cells[i] = Cell::occupied;
+      else if (parameters.empty_cells != EmptyCells::binary && counts.ground_seen[i] == 0 &&
+               !is_free_by_rays())
+        map.cells[i] = Cell::unknown;
+    }
+  });
+}
+
 }  // namespace
 
 GridMap project(const LabelledCloud& cloud, const Plane& ground, const GridParameters& parameters,
-                GridStatistics& statistics) {
+                GridStatistics& statistics,
+                const std::function<FreeShare(const Pose& map_from_world)>& free_share_in) {
   const Pose to_map = map_from_world(ground);
   const std::vector<Vec3> points = points_in_map(cloud, to_map, parameters.max_height, statistics);
   if (points.empty())
@@ -88,28 +137,15 @@ GridMap project(const LabelledCloud& cloud, const Plane& ground, const GridParam
   GridMap map = empty_grid(range, parameters);
   map.map_from_world = to_map;
 
-  std::vector<std::int32_t> in_band(map.cells.size(), 0);
-  std::vector<std::uint8_t> seen(map.cells.size(), 0);
-  for (const Vec3 p : points) {
-    const auto x = static_cast<std::size_t>(std::floor(p.x / parameters.resolution) - range.min_x);
-    const auto y = static_cast<std::size_t>(std::floor(p.y / parameters.resolution) - range.min_y);
-    const std::size_t cell = y * static_cast<std::size_t>(map.width) + x;
-    if (p.z >= parameters.min_height) {
-      ++statistics.points_in_band;
-      ++in_band[cell];
-    } else {
-      ++statistics.points_below;
-      if (p.z > -parameters.min_height) seen[cell] = 1;
-    }
-  }
-  for (std::size_t i = 0; i < map.cells.size(); ++i) {
-    if (in_band[i] >= parameters.min_points)
-      map.cells[i] = Cell::occupied;
-    else if (parameters.empty_cells == EmptyCells::seen && seen[i] == 0)
-      map.cells[i] = Cell::unknown;
-    statistics.occupied += map.cells[i] == Cell::occupied ? 1 : 0;
-    statistics.free += map.cells[i] == Cell::free ? 1 : 0;
-    statistics.unknown += map.cells[i] == Cell::unknown ? 1 : 0;
+  const CellCounts counts = count_points(points, map, range, parameters, statistics);
+  mark_cells(map, counts, parameters,
+             parameters.empty_cells == EmptyCells::rays ? free_share_in(to_map) : FreeShare{});
+  statistics.speckle = remove_speckle(map, counts.in_band, parameters.speckle_points);
+  statistics.filled = fill_holes(map, parameters.max_hole_cells);
+  for (const Cell cell : map.cells) {
+    statistics.occupied += cell == Cell::occupied ? 1 : 0;
+    statistics.free += cell == Cell::free ? 1 : 0;
+    statistics.unknown += cell == Cell::unknown ? 1 : 0;
   }
   return map;
 }

@@ -124,14 +124,16 @@ Ground find_ground(const LabelledCloud& cloud, const std::optional<UpHint>& hint
   for (const LabelledPoint& p : cloud)
     if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) points.push_back({p.x, p.y, p.z});
   const auto ground = hint ? search(points, *hint, parameters) : search_without_hint(points, parameters);
-  if (ground) return *ground;
+  if (ground && (ground->floor || !parameters.require_floor)) return *ground;
   std::ostringstream message;
-  message << "no ground found: no plane of " << parameters.min_area_m2 << " m2 or more "
-          << (hint ? "across the upward direction (" + hint->source + ")"
-                   : std::string("that could be a floor"))
-          << " in a cloud of " << cloud.size()
-          << " points; give the plane by hand: ground = \"nx ny nz d\" with nx x + ny y + nz z + d = 0, "
-             "normal up";
+  if (ground)
+    message << "no floor is seen (" << ground->source << ", " << ground->area_m2 << " m2)";
+  else
+    message << "no ground found: no plane of " << parameters.min_area_m2 << " m2 or more "
+            << (hint ? "across the upward direction (" + hint->source + ")"
+                     : std::string("that could be a floor"))
+            << " in a cloud of " << cloud.size() << " points";
+  message << "; give the plane by hand: ground = \"nx ny nz d\" with nx x + ny y + nz z + d = 0, normal up";
   throw std::runtime_error(message.str());
 }
 

@@ -34,10 +34,10 @@ struct GroundParameters {
   double tolerance_m = 0.03;
   double min_area_m2 = 0.25;
   double max_below = 0.05;
+  bool require_floor = false;  ///< a desk is no ground
 };
 
-/// Finds the ground in the cloud: ... (README). Throws std::runtime_error that says the way out if there is
-/// none.
+/// Finds the ground in the cloud (README). Throws std::runtime_error that says the way out if there is none.
 Ground find_ground(const LabelledCloud& cloud, const std::optional<UpHint>& hint,
                    const GroundParameters& parameters);
 

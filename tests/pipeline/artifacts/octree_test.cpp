@@ -31,7 +31,9 @@ std::unique_ptr<octomap::ColorOcTree> some_tree() {
 TEST_CASE("an octree survives writing and reading, and OctoMap opens both files") {
   const test::TemporaryFolder folder;
   const auto tree = some_tree();
-  const std::vector<LeafLabel> leaf_labels{{{1, 2, 3}, 16, 56}, {{65535, 0, 9}, 15, kUnlabelled}};
+  std::vector<LeafLabel> leaf_labels{{{1, 2, 3}, 16, 56}, {{65535, 0, 9}, 15, kUnlabelled}};
+  leaf_labels[0].confidence = 0.75F;
+  leaf_labels[0].others = {{{57, 0.25F}, {}}};
   write_octree(folder.path(), *some_tree(), leaf_labels, default_labels());
 
   const auto read = read_octree(folder.path());
@@ -52,7 +54,9 @@ TEST_CASE("an octree survives writing and reading, and OctoMap opens both files"
   CHECK(labels[1].key[0] == 65535);
   CHECK(labels[1].depth == 15);
   CHECK(labels[0].label == 56);
-  CHECK(read_bytes(folder / "labels.csv") == "id,name,r,g,b\n56,chair,230,25,25\n");
+  CHECK(labels[0].confidence == 0.75F);
+  CHECK(labels[0].others == leaf_labels[0].others);
+  CHECK(read_bytes(folder / "labels.csv").starts_with("id,name,r,g,b\n56,chair,230,25,25\n57,couch,"));
 }
 
 TEST_CASE("the files of a tree are the ones that OctoMap writes by itself") {
@@ -97,6 +101,15 @@ TEST_CASE("damaged leaf labels are refused with their line") {
   const test::TemporaryFolder folder;
   write_bytes(folder / "leaf_labels.csv", {"key_x,key_y,key_z,depth,label\n1,2,3,16,56\n1,2,70000,16,56\n"});
   CHECK_THROWS_WITH(read_leaf_labels(folder.path()), Contains("leaf_labels.csv:3: ") && Contains("70000"));
+}
+
+TEST_CASE("leaf labels without confidence are read as certain") {
+  const test::TemporaryFolder folder;
+  write_bytes(folder / "leaf_labels.csv", {"key_x,key_y,key_z,depth,label\n1,2,3,16,56\n"});
+  const auto labels = read_leaf_labels(folder.path());
+  REQUIRE(labels.size() == 1);
+  CHECK(labels[0].confidence == 1);
+  CHECK(labels[0].others[0].confidence == 0);
 }
 
 TEST_CASE("an octree on a full disk is an error that names the file") {

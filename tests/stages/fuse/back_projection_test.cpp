@@ -91,6 +91,33 @@ TEST_CASE("pixels without depth, too near or too far stay out; the limits themse
   CHECK(fused(view, small_camera(), {.min_depth_m = 0}).empty());
 }
 
+TEST_CASE(
+    "pixels at a step of the depth and on grazing surfaces stay out when asked for, slopes and noise stay") {
+  const Camera camera = small_camera();
+  View view = flat_view();
+  const auto points = [&](double max_incidence_deg) {
+    return fused(view, camera, {.pixel_step = 1, .max_incidence_deg = max_incidence_deg}).size();
+  };
+  const std::size_t all = points(90);
+  CHECK(points(80) == all);
+  // A box nearer by half a metre, 4 x 3 pixels: its rim (10) and the 14 pixels beside it.
+  const auto rows = view.depth.rows, cols = view.depth.cols;
+  view.depth(cv::Rect(5, 5, 4, 3)) = cv::Scalar(view.depth.at<std::uint16_t>(0, 0) - 2500);
+  CHECK(points(90) == all);
+  CHECK(points(80) == all - 10 - 14);
+  // A plane whose depth grows by a share of itself with every column: tan(angle) = share * fx.
+  const auto slanted = [&](double angle_deg) {
+    const double share = std::tan(angle_deg * 3.14159265358979 / 180) / camera.fx;
+    double z = 1;
+    for (int u = 0; u < cols; ++u, z *= 1 + share)
+      view.depth.col(u) = cv::Scalar(std::round(z * camera.depth_scale));
+    return points(60);
+  };
+  const std::size_t whole = static_cast<std::size_t>(rows * cols);
+  CHECK(slanted(40) == whole);
+  CHECK(slanted(75) < whole / 10);
+}
+
 TEST_CASE("the pixel step takes every n-th pixel of every n-th row, from the first") {
   const LabelledCloud cloud = fused(flat_view(), small_camera(), {.pixel_step = 5});
   CHECK(cloud.size() == 13 * 10);

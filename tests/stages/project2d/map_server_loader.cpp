@@ -40,7 +40,9 @@ OccupancyGrid load_as_map_server(const std::filesystem::path& yaml, const Thresh
       yaw != 0)
     throw std::runtime_error("origin: " + keys.at("origin"));
   grid.resolution_m = std::stod(keys.at("resolution"));
-  if (keys.at("negate") != "0" || keys.at("mode") != "trinary") throw std::runtime_error("negate or mode");
+  const bool raw = keys.at("mode") == "raw";
+  if (keys.at("negate") != "0" || (!raw && keys.at("mode") != "trinary"))
+    throw std::runtime_error("negate or mode");
   const Thresholds thresholds = instead != nullptr ? *instead
                                                    : Thresholds{std::stod(keys.at("occupied_thresh")),
                                                                 std::stod(keys.at("free_thresh"))};
@@ -58,6 +60,10 @@ OccupancyGrid load_as_map_server(const std::filesystem::path& yaml, const Thresh
       const auto row = static_cast<std::size_t>(grid.height - 1 - y);  // image row 0 is the top
       const auto grey = static_cast<unsigned char>(
           pgm[pixels + row * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x)]);
+      if (raw) {  // nav2: the grey value itself, what is above 100 is unknown
+        grid.values.push_back(grey <= 100 ? grey : -1);
+        continue;
+      }
       const double occupancy = (255 - grey) / 255.0;
       grid.values.push_back(occupancy > thresholds.occupied ? 100 : occupancy < thresholds.free ? 0 : -1);
     }

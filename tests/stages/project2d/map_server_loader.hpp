@@ -22,7 +22,7 @@ struct Thresholds {
 };
 
 /// Written from the documentation of map_server (ROS 1) and nav2_map_server, without our own reader: strict
-/// about keys, the PGM header and the number of bytes. Throws std::runtime_error.
+/// about keys, the PGM header and the number of bytes. Modes trinary and raw. Throws std::runtime_error.
 OccupancyGrid load_as_map_server(const std::filesystem::path& yaml, const Thresholds* instead = nullptr);
 
 }  // namespace sediment::test
