@@ -99,13 +99,17 @@ TEST_CASE("one point, and many at one place, go through every stage") {
 }
 
 TEST_CASE("points that are no numbers go, all others are as if they had never been") {
-  const Workplace place(wall_with_holes());
+  const LabelledCloud dirty = wall_with_holes();
+  LabelledCloud clean;
+  for (const LabelledPoint& p : dirty)
+    if (std::isfinite(p.x + p.y + p.z)) clean.push_back(p);
+  REQUIRE(clean.size() == dirty.size() - 3);
+  const Workplace place(dirty), without(clean);
   for (const char* stage : {"sor", "voxel"}) {
     INFO(stage);
     REQUIRE(place.run(stage, "").code == 0);
-    for (const LabelledPoint& p : place.result())
-      REQUIRE((std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)));
-    CHECK(place.result().size() == 1600 - 3);
+    REQUIRE(without.run(stage, "").code == 0);
+    CHECK(place.result() == without.result());
   }
   CHECK(place.run("carve", "").code == 0);
   CHECK(place.run("octree", "").code == 0);
@@ -124,9 +128,12 @@ TEST_CASE(
   LabelledCloud cloud = wall_with_holes();
   cloud.push_back(at(1e6F, -1e6F, 1e6F));
   const Workplace place(cloud);
-  REQUIRE(place.run("voxel", "").code == 0);
-  CHECK(place.result().size() == 1600 - 3 + 1);
-  REQUIRE(place.run("sor", "").code == 0);
+  REQUIRE(place.run("voxel", "--leaf 1").code == 0);
+  CHECK(place.result().size() == 4 + 1);
+  const test::Outcome fine = place.run("voxel", "--leaf 0.001");
+  CHECK(fine.code == 1);
+  CHECK_THAT(fine.output, Catch::Contains("raise `leaf` or remove far outliers"));
+  REQUIRE(place.run("sor", "--rule one-sided").code == 0);
   CHECK(place.result().size() == 1600 - 3);  // an outlier if ever there was one
   CHECK(place.run("carve", "").code == 0);
   const test::Outcome octree = place.run("octree", "");
