@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# Installs what Sediment is built from, on Debian 12: packages by apt, ONNX Runtime into third_party/ (ignored by git).
+# Installs what Sediment is built from, on Debian 12: packages by apt, ONNX Runtime and what the page of `sediment report`
+# is made of into third_party/ (ignored by git).
 #
-# usage: scripts/setup.sh [--check] [--no-onnxruntime]
+# usage: scripts/setup.sh [--check] [--no-onnxruntime] [--no-web]
 #   --check           only say what is missing, install nothing: exit 0 if nothing is, else 1
 #   --no-onnxruntime  leave ONNX Runtime out; the stage `segment` then runs networks with OpenCV, about half as fast
+#   --no-web          leave out three.js, esbuild and Chromium: no `sediment report`, and no test of it
 #
 # Run it as root or with sudo at hand, as often as you like: it touches nothing that is there already.
 set -euo pipefail
@@ -59,11 +61,26 @@ fetch_onnxruntime() {
   fi
 }
 
-check=false onnxruntime=true
+# The page, and the browser in which it is tested. Without them everything else works.
+has_web() { "$scripts/fetch_web.sh" --check 2>/dev/null && command -v chromium >/dev/null && command -v node >/dev/null; }
+without_web() { echo "setup: WARNING: $1 (the rest works)" >&2; }
+
+fetch_web() {
+  if ! command -v npm >/dev/null && ! apt_install npm; then
+    without_web "npm cannot be installed, so that \`sediment report\` has no page"
+  elif ! "$scripts/fetch_web.sh"; then
+    without_web "three.js or esbuild could not be fetched, see above: \`sediment report\` has no page"
+  fi
+  command -v node >/dev/null || apt_install nodejs || without_web "no nodejs: the page is not tested"
+  command -v chromium >/dev/null || apt_install chromium || without_web "no chromium: the page is not tested"
+}
+
+check=false onnxruntime=true web=true
 for argument in "$@"; do
   case "$argument" in
     --check) check=true ;;
     --no-onnxruntime) onnxruntime=false ;;
+    --no-web) web=false ;;
     -h | --help) sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "$0"; exit 0 ;;
     *) wrong_call "unknown argument $argument" ;;
   esac
@@ -75,6 +92,7 @@ if $check; then
   state=0
   if [ ${#missing[@]} -gt 0 ]; then say "missing packages: ${missing[*]}"; state=1; fi
   if $onnxruntime && ! has_onnxruntime; then say "missing: ONNX Runtime (scripts/fetch_onnxruntime.sh)"; state=1; fi
+  if $web && ! has_web; then say "missing: three.js, esbuild or chromium (scripts/fetch_web.sh, apt-get)"; state=1; fi
   [ $state = 1 ] || say "nothing is missing"
   exit $state
 fi
@@ -83,4 +101,5 @@ if [ ${#missing[@]} -gt 0 ]; then
   apt_install "${missing[@]}" || fail "apt-get could not install ${missing[*]}; its message is above"
 fi
 if $onnxruntime && ! has_onnxruntime; then fetch_onnxruntime; fi
+if $web && ! has_web; then fetch_web; fi
 say "everything that Sediment is built from is there"

@@ -34,7 +34,9 @@ struct Arguments {
   std::filesystem::path profile;  ///< of a cluster
   int in_flight = 0;              ///< tasks of Slurm at the same time, 0 = as the profile says
   bool wait = false;
-  std::size_t array = 0, index = 0;  ///< of slurm-task
+  std::size_t array = 0, index = 0;   ///< of slurm-task
+  std::filesystem::path page, facts;  ///< of report
+  int points = 400'000, frames = 60;  ///< of report
 };
 
 /// Answers --help and --version itself: then there is nothing left to do. Throws contract::UsageError.

@@ -25,6 +25,7 @@ std::span<const Command> commands() {
       {"table", "Tables of sizes, times and metrics from the receipts of a run or a sweep; runs nothing",
        kFolder | kStore, show_table},
       {"compare", "Show in what the results of two runs differ", kFolder | kTwoFolders | kStore, compare},
+      {"report", "Write one page (HTML) to look at a run or a sweep; runs nothing", kFolder | kStore, report},
       {"verify", "Check the results in a store by digest; what is damaged is put aside",
        kOptionalConfig | kPlaces, verify_store},
       {"prune", "Remove results from a store by age, size or reachability",

@@ -51,5 +51,6 @@ int show_table(const Arguments& arguments);
 int compare(const Arguments& arguments);
 int cancel_jobs(const Arguments& arguments);
 int run_slurm_task(const Arguments& arguments);
+int report(const Arguments& arguments);
 
 }  // namespace sediment::runner
