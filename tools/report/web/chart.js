@@ -20,7 +20,7 @@ const shownTick = (value, all) => {
 
 /**
  * series: [{name, points: [[x, y] or null], kind: class of the line, dots: class(point) or nothing}].
- * options: {xLabel, yLabel, fromZero, height, equal, pick(x)}; returns the element, with cursor(x).
+ * options: {xLabel, yLabel, xRange, fromZero, height, equal, pick(x)}; returns the element, with cursor(x).
  */
 export function chart(series, options) {
   let marker = null, scaleX = null, at = null;
@@ -28,7 +28,7 @@ export function chart(series, options) {
     const height = options.equal ? Math.min(width, 460) : options.height ?? 240;
     const left = 52, right = 12, top = 22, bottom = 34;
     const all = series.flatMap((one) => one.points).filter(Boolean);
-    let [x0, x1] = extent(all, 0), [y0, y1] = extent(all, 1);
+    let [x0, x1] = options.xRange ?? extent(all, 0), [y0, y1] = extent(all, 1);
     if (options.fromZero) y0 = Math.min(0, y0);
     if (y1 <= y0) y1 = y0 + 1;
     if (x1 <= x0) x1 = x0 + 1;

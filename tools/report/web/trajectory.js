@@ -13,6 +13,7 @@ export function trajectory(instance) {
   const errors = made.errors ?? [];
   const start = Number(made.stamps[0]);
   const time = (stamp) => Number(stamp) - start;
+  const xRange = [0, time(made.stamps.at(-1))];
   const pick = (x) => frame.choose(nearest(made.stamps, x + start));
   const above = chart([
     { name: "truth", kind: "truth", points: errors.map((row) => moved(m, row.slice(1, 4))) },
@@ -20,11 +21,11 @@ export function trajectory(instance) {
   ], { xLabel: "x [m]", yLabel: "y [m]", equal: true, overlay: (X, Y) => here(made, path, X, Y) });
   const charts = errors.length
     ? [chart([{ kind: "estimate", points: errors.map((row) => [time(made.stamps[row[0]]), row[4] * 100]) }],
-      { xLabel: "time [s]", yLabel: "distance from the truth after alignment [cm]", fromZero: true, height: 215, pick }),
+      { xLabel: "time [s]", xRange, yLabel: "distance from the truth after alignment [cm]", fromZero: true, height: 215, pick }),
     chart([{ kind: "estimate", points: errors.map((row) => row[5] === null ? null : [time(made.stamps[row[0]]), row[5] * 100]) }],
-      { xLabel: "time [s]", yLabel: "drift within the next second [cm]", fromZero: true, height: 215, pick })]
+      { xLabel: "time [s]", xRange, yLabel: "drift within the next second [cm]", fromZero: true, height: 215, pick })]
     : [chart([{ kind: "estimate", points: made.tracking.stamps.map((stamp, i) => [time(stamp), made.tracking.inliers[i]]) }],
-      { xLabel: "time [s]", yLabel: "points of the map found again", fromZero: true, height: 215, pick })];
+      { xLabel: "time [s]", xRange, yLabel: "points of the map found again", fromZero: true, height: 215, pick })];
   frame.onchange((stamp) => charts.forEach((one) => one.cursor(time(stamp))));
   const largest = errors.length ? Math.max(...errors.map((row) => row[4])) : 0;
   return el("div", {},
