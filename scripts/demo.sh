@@ -65,6 +65,9 @@ picture grid.png "the navigation grid" grid "$maps/project2d"
 picture trajectory.png "the camera's path against the truth" \
   trajectory "$maps/track" --truth "$scene/groundtruth.txt"
 echo "$drawn" >"$pictures/made"
+
+echo
+"$bin/sediment" report "$maps" || echo "demo: no page (above is why); everything else is there"
 cat <<TEXT
 
 Run one stage, and what is behind it, with another parameter; the rest is kept:

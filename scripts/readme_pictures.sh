@@ -16,4 +16,10 @@ build/release/bin/render cloud $maps/voxel --color image --ground $maps/project2
 build/release/bin/render octree $maps/octree --color label --ground $maps/project2d --max-height 2.2 --azimuth 12 \
   --elevation 30 --zoom 1.2 --size 1000x560 --out $pictures/octree.jpg
 build/release/bin/render grid $maps/project2d --out $pictures/grid.png
+build/release/bin/sediment report $maps
+if command -v chromium >/dev/null && command -v node >/dev/null; then
+  NODE_PATH=third_party/web/node_modules node tools/report/screenshot.mjs $maps/report.html $pictures/report.jpg
+else
+  echo "report.jpg stays as it is: needs chromium and node"
+fi
 ls -l $pictures

@@ -57,12 +57,17 @@ sweep() {
   name=$(basename "$file" .yaml)
   results=$out/results/$name/$label
   echo "== $name, $label"
-  "$bin/sediment" sweep "$file" --out "$results" --store "$out/store" "${flags[@]}" "$@" >"$out/logs/$name.$label.log" 2>&1 ||
-    { tail -n 20 "$out/logs/$name.$label.log" >&2; fail "$name, $label: see $out/logs/$name.$label.log"; }
+  local code=0 log=$out/logs/$name.$label.log
+  "$bin/sediment" sweep "$file" --out "$results" --store "$out/store" --keep-going "${flags[@]}" "$@" >"$log" 2>&1 || code=$?
+  case $code in
+    0) ;;
+    1) failed+=("$name, $label: $log"); grep -m 5 -iE 'failed|error' "$log" >&2 || true ;;  # its rows will say so
+    *) tail -n 20 "$log" >&2; exit $code ;;
+  esac
   "$bin/sediment" report "$results" --store "$out/store" --facts "$out/facts/$name.$label.json"
 }
 
-sweep='' model='' out='' flags=() data=() rendered=() facts_only=false
+sweep='' model='' out='' flags=() data=() rendered=() facts_only=false failed=()
 while [ $# -gt 0 ]; do
   case "$1" in
     -h | --help) sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "$0"; exit 0 ;;
@@ -121,6 +126,7 @@ for file in "${files[@]}"; do
     MASKS=$recording/truth/instances SEQUENCES=${folder%/} sweep "$file" "$label" "${given[@]}"
   done
 done
+if [ ${#failed[@]} -gt 0 ]; then printf 'some stages failed: %s\n' "${failed[@]}" >&2; fi
 if $facts_only; then exit 0; fi
 "$bin/tabulate" evaluation "$out"/facts/*.json --out "$out/tables/$name"
 printf '\nTables in %s\n' "$out/tables"
