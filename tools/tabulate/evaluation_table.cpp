@@ -1,6 +1,7 @@
 #include "tools/tabulate/evaluation_table.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "pipeline/artifacts/sequence.hpp"
 #include "pipeline/artifacts/trajectory_file.hpp"
@@ -52,7 +53,7 @@ struct Judged {
   std::string note;
 };
 
-/// The truth of a sequence is prepared once for all instances that map it: instances come sequence by
+/// The truth of a sequence is prepared once for all instances that map it: they are judged sequence by
 /// sequence.
 class Truths {
  public:
@@ -233,8 +234,13 @@ Table table_of_settings(const RunFacts& facts, const std::vector<Judged>& all,
 
 EvaluationTables evaluation_tables(const RunFacts& facts) {
   Truths truths;
-  std::vector<Judged> all;
-  for (const InstanceFacts& instance : facts.instances) all.push_back(judge(instance, truths));
+  std::vector<Judged> all(facts.instances.size());
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return facts.instances[a].sequence < facts.instances[b].sequence;
+  });
+  for (const std::size_t n : order) all[n] = judge(facts.instances[n], truths);
   const auto measures = known(all);
   return {table_of_each(facts, all, measures), table_of_settings(facts, all, measures)};
 }
