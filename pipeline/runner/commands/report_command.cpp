@@ -17,12 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using contract::UsageError;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-constexpr const char* kFormat = "sediment-report-facts 1";
+constexpr const char* kFactsFormat = "sediment-report-facts 1";
 /// The program that reads artifacts and writes the page: the runner itself knows no clouds and no images.
-constexpr const char* kProgram = "report";
-constexpr int kLimit_s = 3600;
+constexpr const char* kReportProgram = "report";
+constexpr int kReportLimit_s = 3600;
 
 /// What a stage was given for a role, as its call has it: "--cloud PATH".
 std::string path_in_call(const std::vector<std::string>& argv, const std::string& role) {
@@ -31,11 +31,11 @@ std::string path_in_call(const std::vector<std::string>& argv, const std::string
 }
 
 /// Where each input comes from: the stage that made this very content, else a source.
-Json inputs_of(const Receipt& receipt, const InstanceResults& results) {
-  Json inputs = Json::array();
+OrderedJson inputs_of(const Receipt& receipt, const InstanceResults& results) {
+  OrderedJson inputs = OrderedJson::array();
   for (const auto& pair : receipt.parts.at("inputs")) {
     const std::string role = pair.at(0), id = pair.at(1);
-    Json input = {{"role", role}, {"id", id}};
+    OrderedJson input = {{"role", role}, {"id", id}};
     for (const std::string& stage : results.stages)
       if (results.receipts.at(stage).object == id) input["stage"] = stage;
     if (!input.contains("stage")) input["source"] = path_in_call(receipt.argv, role);
@@ -44,8 +44,8 @@ Json inputs_of(const Receipt& receipt, const InstanceResults& results) {
   return inputs;
 }
 
-Json facts_of(const std::string& stage, const InstanceResults& results, const StageRecord& record,
-              const Store& store) {
+OrderedJson facts_of(const std::string& stage, const InstanceResults& results, const StageRecord& record,
+                     const Store& store) {
   const Receipt& receipt = results.receipts.at(stage);
   return {{"name", stage},
           {"state", record.state},
@@ -69,14 +69,14 @@ Json facts_of(const std::string& stage, const InstanceResults& results, const St
           {"metrics", receipt.metrics}};
 }
 
-Json facts_of(const InstanceResults& results, const fs::path& out, const Store& store) {
+OrderedJson facts_of(const InstanceResults& results, const fs::path& out, const Store& store) {
   const fs::path folder = results.point.name.empty() ? out : out / results.point.name;
   const RunRecord record = Workspace(folder).read_record();
-  Json instance = {{"name", results.point.name},
-                   {"values", results.point.values},
-                   {"folder", folder.string()},
-                   {"stages", Json::array()},
-                   {"missing", Json::array()}};
+  OrderedJson instance = {{"name", results.point.name},
+                          {"values", results.point.values},
+                          {"folder", folder.string()},
+                          {"stages", OrderedJson::array()},
+                          {"missing", OrderedJson::array()}};
   for (const std::string& stage : results.stages)
     instance["stages"].push_back(facts_of(stage, results, record.stages.at(stage), store));
   for (const auto& [stage, one] : record.stages)
@@ -85,9 +85,9 @@ Json facts_of(const InstanceResults& results, const fs::path& out, const Store& 
   return instance;
 }
 
-void write_json(const fs::path& file, const Json& json) {
+void write_json(const fs::path& file, const OrderedJson& json) {
   std::ofstream stream(file, std::ios::binary);
-  stream << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+  stream << json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) << '\n';
   stream.close();
   if (!stream) throw std::runtime_error("cannot write " + file.string());
 }
@@ -95,7 +95,7 @@ void write_json(const fs::path& file, const Json& json) {
 /// A file that vanishes.
 struct FactsFile {
   fs::path path;
-  FactsFile(const fs::path& folder, const Json& json)
+  FactsFile(const fs::path& folder, const OrderedJson& json)
       : path(folder / (".report." + std::to_string(getpid()) + ".json")) {
     write_json(path, json);
   }
@@ -119,25 +119,25 @@ int report(const Arguments& arguments) {
   const auto results = read_results(out, store);
   if (std::all_of(results.begin(), results.end(), [](const auto& one) { return one.receipts.empty(); }))
     throw UsageError(out.string() + " has no results");
-  Json facts = {
-      {"format", kFormat},
+  OrderedJson facts = {
+      {"format", kFactsFormat},
       {"version", SEDIMENT_VERSION},
       {"name", out.has_filename() ? out.filename().string() : out.parent_path().filename().string()},
       {"folder", out.string()},
-      {"instances", Json::array()}};
+      {"instances", OrderedJson::array()}};
   for (const InstanceResults& one : results) facts["instances"].push_back(facts_of(one, out, store));
   if (!arguments.facts.empty()) {
     write_json(arguments.facts, facts);
     return contract::kDone;
   }
-  const fs::path program = own_folder() / kProgram;
+  const fs::path program = own_folder() / kReportProgram;
   if (!fs::exists(program)) throw UsageError(program.string() + " is missing: build the tools as well");
   const fs::path page =
       arguments.page.empty() ? out / "report.html" : fs::absolute(arguments.page).lexically_normal();
   const FactsFile file(out, facts);
   fmt::print("{}", output_of({program.string(), file.path.string(), "--out", page.string(), "--points",
                               std::to_string(arguments.points), "--frames", std::to_string(arguments.frames)},
-                             kLimit_s));
+                             kReportLimit_s));
   return contract::kDone;
 }
 
