@@ -16,7 +16,8 @@ std::string density_of(const nlohmann::json& fuse) {
 
 std::string settings_of(const StageFacts& fuse, const StageFacts& sor, const StageFacts& voxel) {
   return formatted(
-      "%s, depth %g to %g m, every %gth pixel; sor.neighbors %g, %g sigma, %s; PCD %s, %g bytes a point",
+      "%s, depth %g to %g m, one pixel in %g of each row and column; sor.neighbors %g, %g sigma, %s; PCD %s, "
+      "%g bytes a point",
       density_of(fuse.params).c_str(), fuse.params.at("min_depth_m").get<double>(),
       fuse.params.at("max_depth_m").get<double>(), fuse.params.at("pixel_step").get<double>(),
       sor.params.at("neighbors").get<double>(), sor.params.at("sigmas").get<double>(),
