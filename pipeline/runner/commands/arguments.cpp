@@ -40,6 +40,18 @@ void add_config(CLI::App& app, Arguments& arguments, unsigned takes) {
         ->allow_extra_args(false);
 }
 
+void add_report_flags(CLI::App& app, Arguments& arguments) {
+  app.add_option("--page", arguments.page, "File to write [FOLDER/report.html]")->type_name("FILE");
+  app.add_option("--facts", arguments.facts, "Write what receipts know as JSON instead of a page")
+      ->type_name("FILE");
+  app.add_option("--points", arguments.points, "Points on the whole page; clouds with more are thinned")
+      ->check(CLI::Range(1000, 20'000'000))
+      ->capture_default_str();
+  app.add_option("--frames", arguments.frames, "Pictures on the whole page, spread over the sequences")
+      ->check(CLI::Range(0, 100'000))
+      ->capture_default_str();
+}
+
 void add_places(CLI::App& app, Arguments& arguments) {
   app.add_option("--out", arguments.out, "Folder that gets a link to each result [out/<pipeline>]")
       ->type_name("DIR");
@@ -107,20 +119,9 @@ void add_table_flags(CLI::App& app, Arguments& arguments) {
       ->check(CLI::IsMember({"markdown", "csv", "json", "latex"}));
 }
 
-void add_report_flags(CLI::App& app, Arguments& arguments) {
-  app.add_option("--page", arguments.page, "File to write [FOLDER/report.html]")->type_name("FILE");
-  app.add_option("--facts", arguments.facts, "Write what receipts know as JSON instead of a page")
-      ->type_name("FILE");
-  app.add_option("--points", arguments.points, "Points on the whole page; clouds with more are thinned")
-      ->check(CLI::Range(1000, 20'000'000))
-      ->capture_default_str();
-  app.add_option("--frames", arguments.frames, "Pictures on the whole page, spread over the sequences")
-      ->check(CLI::Range(0, 100'000))
-      ->capture_default_str();
-}
-
 /// Flags that one command alone has.
 void add_own_flags(CLI::App& app, const std::string& name, Arguments& arguments) {
+  if (name == "report") add_report_flags(app, arguments);
   if (name == "graph")
     app.add_option("--format", arguments.format, "text, mermaid or dot [text]")
         ->check(CLI::IsMember({"text", "mermaid", "dot"}));
@@ -136,7 +137,6 @@ void add_own_flags(CLI::App& app, const std::string& name, Arguments& arguments)
         ->envname("SLURM_ARRAY_TASK_ID")
         ->required();
   }
-  if (name == "report") add_report_flags(app, arguments);
   if (name != "prune") return;
   app.add_option("--older-than", arguments.older_than, "Results made longer ago: 90s, 15m, 2h, 30d")
       ->type_name("AGE");

@@ -14,6 +14,8 @@ struct Arguments {
   const Command* command = nullptr;
   std::filesystem::path config;  ///< or the folder of seal
   std::string stage;
+  std::filesystem::path page, facts;  ///< of report
+  int points = 400'000, frames = 60;  ///< of report
   std::string only, from, until;
   std::vector<std::string> set;
   std::vector<std::string> resources;        ///< what this machine has, name=amount
@@ -34,9 +36,7 @@ struct Arguments {
   std::filesystem::path profile;  ///< of a cluster
   int in_flight = 0;              ///< tasks of Slurm at the same time, 0 = as the profile says
   bool wait = false;
-  std::size_t array = 0, index = 0;   ///< of slurm-task
-  std::filesystem::path page, facts;  ///< of report
-  int points = 400'000, frames = 60;  ///< of report
+  std::size_t array = 0, index = 0;  ///< of slurm-task
 };
 
 /// Answers --help and --version itself: then there is nothing left to do. Throws contract::UsageError.

@@ -35,6 +35,7 @@ struct Command {
 std::span<const Command> commands();
 
 // In the files named after them.
+int report(const Arguments& arguments);
 int run(const Arguments& arguments);
 int show_plan(const Arguments& arguments);
 int show_why(const Arguments& arguments);
@@ -51,6 +52,5 @@ int show_table(const Arguments& arguments);
 int compare(const Arguments& arguments);
 int cancel_jobs(const Arguments& arguments);
 int run_slurm_task(const Arguments& arguments);
-int report(const Arguments& arguments);
 
 }  // namespace sediment::runner
