@@ -29,10 +29,10 @@ Json small_file() {
             {{"id", 3}, {"image_id", 3}, {"category_id", 1}, {"segmentation", {{2, 1, 5, 1, 5, 4, 2, 4}}}}}}};
 }
 
-struct CocoFile {
+struct WrittenCoco {
   test::TemporaryFolder folder;
   std::filesystem::path file = folder / "coco.json";
-  explicit CocoFile(const Json& json) { std::ofstream(file) << json.dump(); }
+  explicit WrittenCoco(const Json& json) { std::ofstream(file) << json.dump(); }
 };
 
 }  // namespace
@@ -93,7 +93,7 @@ TEST_CASE("a polygon has the pixels whose centres it holds") {
 }
 
 TEST_CASE("a COCO file gives its images, categories and masks in every form") {
-  const CocoFile written(small_file());
+  const WrittenCoco written(small_file());
   const CocoFile coco = read_coco(written.file);
   const CocoImage* image = coco.find("12.500000");
   REQUIRE(image != nullptr);
@@ -115,7 +115,7 @@ TEST_CASE("a COCO file gives its images, categories and masks in every form") {
 
 TEST_CASE("what is wrong in a COCO file is named") {
   const auto refused = [](const Json& json, const std::string& message) {
-    const CocoFile written(json);
+    const WrittenCoco written(json);
     CHECK_THROWS_WITH(read_coco(written.file), Contains("coco.json is no COCO file") && Contains(message));
   };
   Json json = small_file();
@@ -137,12 +137,12 @@ TEST_CASE("what is wrong in a COCO file is named") {
   json.erase("categories");
   refused(json, "categories");
   refused(Json::array({small_file()["annotations"][0]}), "a list of results names no images");
-  const CocoFile text("not COCO");
+  const WrittenCoco text("not COCO");
   CHECK_THROWS_WITH(read_coco(text.file), Contains("no COCO file"));
 
   json = small_file();
   json["annotations"][1]["segmentation"]["counts"] = {0, 2, 80};
-  const CocoFile short_one(json);
+  const WrittenCoco short_one(json);
   const CocoFile coco = read_coco(short_one.file);
   CHECK_THROWS_WITH(pixels_of(coco.images[0].objects[1], coco.images[0], coco),
                     Contains("coco.json: rgb/12.500000.png: annotation 2: run lengths add up to 82 pixels"));
