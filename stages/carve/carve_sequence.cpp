@@ -46,7 +46,10 @@ Carved carve_cloud(const LabelledCloud& cloud, const Sequence& sequence, const T
         "no frame of the sequence has a pose in the trajectory: nothing can be seen through");
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const bool goes = is_carved(votes[i], parameters);
-    (goes ? carved.removed : carved.kept).push_back(cloud[i]);
+    if (goes)
+      carved.removed.push_back(cloud[i]);
+    else
+      carved.kept.push_back(parameters.settle ? settled(cloud[i], votes[i], parameters) : cloud[i]);
     carved.statistics.never_seen += votes[i].through + votes[i].hits == 0 ? 1 : 0;
     carved.statistics.spared += !goes && votes[i].through > 0 ? 1 : 0;
   }

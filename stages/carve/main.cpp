@@ -30,6 +30,10 @@ int main(int argc, char** argv) {
   stage.tunes("min_views", parameters.min_views, "frames that must see through a point", {1, 60000});
   stage.tunes("min_share", parameters.min_share,
               "of the frames that tell something about a point, more than this must see through it", {0, 1});
+  stage.tunes("min_confirmed", parameters.min_confirmed,
+              "of the frames whose very pixel shows a point, or what is behind it, fewer make it go", {0, 1});
+  stage.tunes("settle", parameters.settle,
+              "move points to where the frames that see them have them in the mean, weighted by the noise");
   stage.tunes("keep_removed", keep_removed, "write what was cut as removed.pcd");
   stage.tunes("encoding", encoding, "of cloud.pcd",
               {{"ascii", PcdEncoding::ascii},

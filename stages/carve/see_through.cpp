@@ -25,6 +25,7 @@ struct Look {
   const DepthView& view;
   const Parameters& parameters;
   cv::Mat nearest;
+  Pose world_from_camera;
 
   double tolerance_m(double depth_m) const {
     return parameters.slack_m + parameters.sigmas * parameters.noise * depth_m * depth_m;
@@ -51,14 +52,36 @@ struct Look {
           image.v < view.depth.rows - 0.5))
       return;
     const int u = static_cast<int>(std::lround(image.u)), v = static_cast<int>(std::lround(image.v));
-    const double behind_m = nearest.at<std::uint16_t>(v, u) / camera.depth_scale;
+    const double nearest_m = nearest.at<std::uint16_t>(v, u) / camera.depth_scale;
     // The noise of the depth that is measured, which is the larger one.
-    const bool through = behind_m > p.z + tolerance_m(behind_m);
-    constexpr std::uint16_t kMost = std::numeric_limits<std::uint16_t>::max();
-    if (through)
-      votes.through += votes.through < kMost ? 1 : 0;
-    else if (sees(u, v, p.z))
-      votes.hits += votes.hits < kMost ? 1 : 0;
+    if (nearest_m > p.z + tolerance_m(nearest_m)) {
+      count(votes.through);
+      return;
+    }
+    const double measured_m = view.depth.at<std::uint16_t>(v, u) / camera.depth_scale;
+    if (sees(u, v, p.z))
+      count(votes.hits);
+    else if (measured_m > p.z + tolerance_m(measured_m))
+      count(votes.behind);
+    if (parameters.settle) settle(u, v, p, measured_m, votes);
+  }
+
+  static void count(std::uint16_t& votes) {
+    votes += votes < std::numeric_limits<std::uint16_t>::max() ? 1 : 0;
+  }
+
+  void settle(int u, int v, Vec3 p, double measured_m, Votes& votes) const {
+    if (!(measured_m > 0 && std::abs(measured_m - p.z) <= tolerance_m(measured_m))) return;
+    if (!view.dynamic.empty() && view.dynamic.at<std::uint8_t>(v, u) != 0) return;
+    count(votes.settled);
+    // No sensor is better than a millimetre.
+    const double deviation_m = std::max(0.001, parameters.noise * measured_m * measured_m);
+    const double weight = 1 / (deviation_m * deviation_m);
+    const Vec3 way = world_from_camera.rotate((measured_m / p.z - 1) * p);
+    votes.weight += static_cast<float>(weight);
+    votes.x += static_cast<float>(weight * way.x);
+    votes.y += static_cast<float>(weight * way.y);
+    votes.z += static_cast<float>(weight * way.z);
   }
 };
 
@@ -66,7 +89,8 @@ struct Look {
 
 void add_votes(const LabelledCloud& cloud, const Camera& camera, const DepthView& view,
                const Parameters& parameters, std::vector<Votes>& votes) {
-  const Look look{camera, view, parameters, nearest_depths(view.depth, parameters.window_px)};
+  const Look look{camera, view, parameters, nearest_depths(view.depth, parameters.window_px),
+                  view.camera_from_world.inverse()};
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 1 << 13), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) look.vote(cloud[i], votes[i]);
   });
@@ -74,7 +98,17 @@ void add_votes(const LabelledCloud& cloud, const Camera& camera, const DepthView
 
 bool is_carved(const Votes& votes, const Parameters& parameters) {
   const int told = votes.through + votes.hits;
-  return votes.through >= parameters.min_views && votes.through > parameters.min_share * told;
+  if (votes.through >= parameters.min_views && votes.through > parameters.min_share * told) return true;
+  const int behind = votes.through + votes.behind;
+  return behind >= parameters.min_views && votes.hits < parameters.min_confirmed * (votes.hits + behind);
+}
+
+LabelledPoint settled(LabelledPoint point, const Votes& votes, const Parameters& parameters) {
+  if (votes.settled < parameters.min_views) return point;
+  point.x += votes.x / votes.weight;
+  point.y += votes.y / votes.weight;
+  point.z += votes.z / votes.weight;
+  return point;
 }
 
 }  // namespace sediment::carve

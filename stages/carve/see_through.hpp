@@ -18,6 +18,10 @@ struct Parameters {
   int window_px = 2;       ///< reach of the window that must be seen through as a whole
   int min_views = 3;       ///< that see through a point, for it to go
   double min_share = 0.5;  ///< of the views that tell something about a point
+  /// A point stays only if at least this share of the views in which its very pixel shows it, or something
+  /// behind it, show it: what sensors see in the air beside an edge is elsewhere in the next view.
+  double min_confirmed = 0.2;
+  bool settle = false;  ///< move points to where the views that see them have them in the mean
 };
 
 /// One look at the scene.
@@ -29,19 +33,29 @@ struct DepthView {
 
 /// What the views say about one point.
 struct Votes {
-  std::uint16_t through = 0;  ///< views that see something behind it
+  std::uint16_t through = 0;  ///< views that see through it
   std::uint16_t hits = 0;     ///< views that see it
+  std::uint16_t behind = 0;   ///< other views whose very pixel shows something behind it: maybe an edge
+  std::uint16_t settled = 0;  ///< views that say where it is
+  float weight = 0;           ///< sum of those views' weights: the inverse of the noise's variance, 1/m^2
+  float x = 0, y = 0, z = 0;  ///< weighted sum of the ways to where they have it, world, metres
 };
 
 /// Adds a view's votes, one entry of `votes` for each point. A view sees a point if some static depth of the
 /// window around its image is that of the point within the tolerance; it sees through it if every pixel of
 /// the window has a depth, and all of them lie behind the point by more than the tolerance. So a point at an
 /// edge, on a surface seen at a grazing angle or where the sensor says nothing is never seen through. In
-/// parallel; counts do not depend on it.
+/// parallel; votes do not depend on it.
+///
+/// The pixel on which the point's image falls also says where it is, if its depth is static and that of the
+/// point within the tolerance: on its ray, at the depth measured.
 void add_votes(const LabelledCloud& cloud, const Camera& camera, const DepthView& view,
                const Parameters& parameters, std::vector<Votes>& votes);
 
 /// Whether the point goes.
 bool is_carved(const Votes& votes, const Parameters& parameters);
+
+/// The point where the views have it in the weighted mean; as it is if fewer than `min_views` say so.
+LabelledPoint settled(LabelledPoint point, const Votes& votes, const Parameters& parameters);
 
 }  // namespace sediment::carve

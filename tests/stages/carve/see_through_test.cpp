@@ -3,6 +3,7 @@
 #include <tbb/global_control.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -121,6 +122,59 @@ TEST_CASE("a point goes if enough views, and most of those that say something, s
   CHECK(is_carved({10, 9}, parameters));
   CHECK_FALSE(is_carved({10, 10}, parameters));
   CHECK_FALSE(is_carved({10, 90}, parameters));
+  // Hits and views that show something behind the point in its very pixel, amid an edge: one in five.
+  CHECK_FALSE(is_carved({.hits = 20, .behind = 80}, parameters));
+  CHECK(is_carved({.hits = 19, .behind = 81}, parameters));
+  CHECK(is_carved({.behind = 3}, parameters));
+  CHECK_FALSE(is_carved({.behind = 2}, parameters));
+}
+
+TEST_CASE("a point settles where the views have it in the mean, the exact ones counting most") {
+  const Parameters parameters{.settle = true};
+  const LabelledPoint point = at(0.2, -0.1, 3.03);
+  std::vector<Votes> votes(1);
+  // Three views from the origin have the wall at 3 m, one from 2 m nearer, more exact by (3 / 1)^2, at 3.02
+  // m.
+  for (int i = 0; i < 3; ++i) add_votes({point}, small_camera(), {{}, wall_at(3), {}}, parameters, votes);
+  const Pose nearer{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, -2}};
+  add_votes({point}, small_camera(), {nearer, wall_at(1.02), {}}, parameters, votes);
+  REQUIRE(votes[0].settled == 4);
+  const LabelledPoint there = settled(point, votes[0], parameters);
+  const double far = 3 / std::pow(3.0, 4), near = 1 / std::pow(1.02, 4);
+  CHECK(there.z == Approx((far * 3.00 + near * 3.02) / (far + near)).margin(2e-5));
+  // Along the rays: those of the origin keep x / z.
+  CHECK(there.x ==
+        Approx(0.2 - (far * 0.2 * 0.03 / 3.03 + near * 0.2 * 0.01 / 1.03) / (far + near)).margin(2e-5));
+
+  std::vector<Votes> few(1);
+  for (int i = 0; i < 2; ++i) add_votes({point}, small_camera(), {{}, wall_at(3), {}}, parameters, few);
+  CHECK(settled(point, few[0], parameters) == point);
+  const DepthView moving{{}, wall_at(3), cv::Mat(48, 64, CV_8UC1, cv::Scalar(1))};
+  std::vector<Votes> by_movers(1);
+  add_votes({point}, small_camera(), moving, parameters, by_movers);
+  CHECK(by_movers[0].settled == 0);
+}
+
+TEST_CASE("a noisy wall that many views see comes out flat") {
+  const Parameters parameters{.settle = true};
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise_m(0, parameters.noise * 16);
+  const auto noisy_wall = [&] {
+    cv::Mat depth(48, 64, CV_16UC1);
+    for (auto& value : cv::Mat_<std::uint16_t>(depth))
+      value = static_cast<std::uint16_t>((4 + noise_m(random)) * 5000);
+    return depth;
+  };
+  LabelledCloud cloud;
+  for (int i = 0; i < 500; ++i) cloud.push_back(at(0.003 * i - 0.75, 0.002 * i - 0.5, 4 + noise_m(random)));
+  std::vector<Votes> votes(cloud.size());
+  for (int i = 0; i < 50; ++i) add_votes(cloud, small_camera(), {{}, noisy_wall(), {}}, parameters, votes);
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    before += std::pow(cloud[i].z - 4, 2);
+    after += std::pow(settled(cloud[i], votes[i], parameters).z - 4, 2);
+  }
+  CHECK(std::sqrt(after / 500) < std::sqrt(before / 500) / 5);
 }
 
 TEST_CASE("votes do not depend on the number of threads") {
@@ -132,8 +186,11 @@ TEST_CASE("votes do not depend on the number of threads") {
   for (const std::size_t threads : {1, 4}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     std::vector<Votes>& votes = results.emplace_back(cloud.size());
-    add_votes(cloud, small_camera(), {{}, wall_at(3), {}}, {}, votes);
+    add_votes(cloud, small_camera(), {{}, wall_at(3), {}}, {.settle = true}, votes);
   }
-  const auto same = [](const Votes& a, const Votes& b) { return a.through == b.through && a.hits == b.hits; };
+  const auto same = [](const Votes& a, const Votes& b) {
+    return a.through == b.through && a.hits == b.hits && a.behind == b.behind && a.settled == b.settled &&
+           a.weight == b.weight && a.x == b.x && a.y == b.y && a.z == b.z;
+  };
   CHECK(std::equal(results[0].begin(), results[0].end(), results[1].begin(), same));
 }
