@@ -2,11 +2,13 @@
 
 #include <tbb/parallel_pipeline.h>
 
+#include <set>
 #include <stdexcept>
 
 #include "pipeline/artifacts/dynamic_masks.hpp"
 #include "pipeline/artifacts/masks.hpp"
 #include "pipeline/artifacts/trajectory_file.hpp"
+#include "stages/fuse/covered_cells.hpp"
 
 namespace sediment::fuse {
 namespace {
@@ -17,15 +19,27 @@ struct Piece {
   PixelCounts counts;
 };
 
+/// Adds the frames that are not among those selected, behind them.
+void append_others(const Selection& all, Selection& selection) {
+  std::set<std::size_t> known;
+  for (const PosedFrame& frame : selection.frames) known.insert(frame.frame_idx);
+  for (const PosedFrame& frame : all.frames)
+    if (!known.contains(frame.frame_idx)) selection.frames.push_back(frame);
+}
+
+/// The first `selected` frames are the selected ones; those behind them fill.
 Selection selection_of(const Sequence& sequence, const std::filesystem::path& trajectory,
-                       const Parameters& parameters) {
+                       const Parameters& parameters, std::size_t& selected) {
   std::vector<FrameStamp> stamps;
   for (std::size_t i = 0; i < sequence.size(); ++i)
     stamps.push_back({sequence.entry(i).stamp, sequence.entry(i).stamp_s});
   const bool by_keyframes = parameters.frames == FrameChoice::keyframes;
-  return select_frames(stamps, read_trajectory(trajectory),
-                       by_keyframes ? read_keyframes(trajectory) : Trajectory{}, parameters.frames,
-                       parameters.every_nth);
+  const Trajectory poses = read_trajectory(trajectory);
+  Selection selection = select_frames(stamps, poses, by_keyframes ? read_keyframes(trajectory) : Trajectory{},
+                                      parameters.frames, parameters.every_nth);
+  selected = selection.frames.size();
+  if (parameters.fill_m > 0) append_others(select_frames(stamps, poses, {}, FrameChoice::all, 1), selection);
+  return selection;
 }
 
 /// Reads and back-projects single frames; safe to call from several threads.
@@ -74,10 +88,16 @@ class FrameSource {
 FuseResult fuse_sequence(const Sequence& sequence, const Sources& sources, const LabelTable& labels,
                          const Parameters& parameters, std::size_t frames_in_flight,
                          const std::filesystem::path& out, const std::function<void(std::size_t)>& on_frame) {
-  const Selection selection = selection_of(sequence, sources.trajectory, parameters);
+  std::size_t selected = 0;
+  const Selection selection = selection_of(sequence, sources.trajectory, parameters, selected);
   const FrameSource source(sequence, sources, labels, parameters.projection);
   CloudWriter writer(out, parameters.encoding);
-  FuseResult result{0, selection.frames.size(), selection.without_pose, {}};
+  FuseResult result;
+  result.frames_fused = selected;
+  result.frames_filling = selection.frames.size() - selected;
+  result.frames_without_pose = selection.without_pose;
+  CoveredCells covered(parameters.fill_m > 0 ? parameters.fill_m : 1);
+  std::size_t appended = 0;
 
   std::size_t next = 0;
   const auto number_frames =
@@ -87,12 +107,17 @@ FuseResult fuse_sequence(const Sequence& sequence, const Sources& sources, const
       });
   const auto project = tbb::make_filter<std::size_t, Piece>(
       tbb::filter_mode::parallel, [&](std::size_t i) { return source(selection.frames[i]); });
-  const auto append =
-      tbb::make_filter<Piece, void>(tbb::filter_mode::serial_in_order, [&](const Piece& piece) {
-        writer.append(piece.points);
-        result.pixels += piece.counts;
-        on_frame(selection.frames.size());
-      });
+  const auto append = tbb::make_filter<Piece, void>(tbb::filter_mode::serial_in_order, [&](Piece piece) {
+    if (appended++ >= selected) {
+      covered.keep_new(piece.points);
+      result.points_filling += piece.points.size();
+    } else if (parameters.fill_m > 0) {
+      covered.add(piece.points);
+    }
+    writer.append(piece.points);
+    result.pixels += piece.counts;
+    on_frame(selection.frames.size());
+  });
   tbb::parallel_pipeline(frames_in_flight, number_frames & project & append);
 
   result.points = writer.size();

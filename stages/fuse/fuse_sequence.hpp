@@ -17,6 +17,9 @@ namespace sediment::fuse {
 struct Parameters {
   FrameChoice frames = FrameChoice::keyframes;
   int every_nth = 5;
+  /// Frames that are not selected add only what no selected one saw: points that no earlier one is near, by
+  /// cells of this side (CoveredCells). 0: they add nothing.
+  double fill_m = 0;
   Projection projection;
   PcdEncoding encoding = PcdEncoding::binary;
 };
@@ -31,6 +34,8 @@ struct Sources {
 struct FuseResult {
   std::uint64_t points = 0;
   std::size_t frames_fused = 0;
+  std::size_t frames_filling = 0;                ///< that added what was missing
+  std::uint64_t points_filling = 0;              ///< of them
   std::vector<std::string> frames_without_pose;  ///< stamps of selected frames that are left out
   PixelCounts pixels;
 };

@@ -34,6 +34,11 @@ int main(int argc, char** argv) {
                {"all", FrameChoice::all},
                {"every_nth", FrameChoice::every_nth}});
   stage.tunes("every_nth", parameters.every_nth, "n of frames=every_nth", {1, 1e6});
+  stage.tunes(
+      "fill_m", parameters.fill_m,
+      "frames that are not selected add points that no earlier one is near, by cells of this side; 0: "
+      "none",
+      {0, 10});
   stage.tunes("min_depth_m", projection.min_depth_m, "nearer pixels are left out", {0, 1000});
   stage.tunes("max_depth_m", projection.max_depth_m, "farther pixels are left out", {0, 1000});
   stage.tunes("pixel_step", projection.pixel_step, "every n-th pixel of every n-th row", {1, 1000});
@@ -63,6 +68,8 @@ int main(int argc, char** argv) {
                       work.out(), on_frame);
     work.metrics() = {{"points", result.points},
                       {"frames_fused", result.frames_fused},
+                      {"frames_filling", result.frames_filling},
+                      {"points_filling", result.points_filling},
                       {"frames_without_pose", result.frames_without_pose},
                       {"pixels_visited", result.pixels.visited},
                       {"pixels_dynamic", result.pixels.dynamic},

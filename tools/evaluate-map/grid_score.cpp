@@ -14,9 +14,10 @@ std::optional<double> share(std::size_t part, std::size_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// What is true of the cells of a map.
+/// What is true of the cells of a map. `rested`: something stood there for a while only; a map may show it or
+/// not.
 struct TrueCells {
-  std::vector<char> occupied, ground, seen_through;
+  std::vector<char> occupied, ground, seen_through, rested;
 };
 
 struct CellIndex {
@@ -34,11 +35,17 @@ struct CellIndex {
 TrueCells true_cells(const GridMap& map, const Pose& map_from_truth, const std::vector<Vec3>& still,
                      const std::vector<Vec3>& surface, const FreeSpace& free, const HeightBand& band) {
   const CellIndex index{map};
-  TrueCells cells{std::vector<char>(map.cells.size(), 0), {}, {}};
-  cells.ground = cells.seen_through = cells.occupied;
-  for (const Vec3& point : surface)
-    if (point.z >= band.low_m && point.z <= band.high_m)
-      if (const auto cell = index.of(map_from_truth * point)) cells.occupied[*cell] = 1;
+  TrueCells cells{std::vector<char>(map.cells.size(), 0), {}, {}, {}};
+  cells.ground = cells.seen_through = cells.rested = cells.occupied;
+  const auto mark = [&](const std::vector<Vec3>& points, std::vector<char>& marked) {
+    for (const Vec3& point : points)
+      if (point.z >= band.low_m && point.z <= band.high_m)
+        if (const auto cell = index.of(map_from_truth * point)) marked[*cell] = 1;
+  };
+  mark(still, cells.occupied);
+  mark(surface, cells.rested);
+  for (std::size_t i = 0; i < cells.rested.size(); ++i)
+    if (cells.occupied[i] != 0) cells.rested[i] = 0;
   for (const Vec3& point : still)
     if (std::abs(point.z) < band.low_m)
       if (const auto cell = index.of(map_from_truth * point)) cells.ground[*cell] = 1;
@@ -65,6 +72,12 @@ bool near(const GridMap& map, int x, int y, const IsSet& is_set) {
   return false;
 }
 
+void count_state(GridScore& score, Cell cell) {
+  score.free += cell == Cell::free;
+  score.occupied += cell == Cell::occupied;
+  score.unknown += cell == Cell::unknown;
+}
+
 void count(GridScore& score, const GridMap& map, const TrueCells& truth) {
   std::size_t known_free = 0, safe = 0, right = 0, free_of_ground = 0, found_of_ground = 0, unobserved = 0;
   std::size_t judged_occupied = 0, right_occupied = 0, found_occupied = 0;
@@ -75,7 +88,12 @@ void count(GridScore& score, const GridMap& map, const TrueCells& truth) {
       const bool free = !occupied && (truth.ground[i] != 0 || truth.seen_through[i] != 0);
       const bool near_obstacle =
           near(map, x, y, [&](std::size_t k) { return map.cells[k] == Cell::occupied; });
-      const bool near_truth = near(map, x, y, [&](std::size_t k) { return truth.occupied[k] != 0; });
+      const bool near_truth =
+          near(map, x, y, [&](std::size_t k) { return truth.occupied[k] != 0 || truth.rested[k] != 0; });
+      if (truth.rested[i] != 0) {
+        count_state(score, map.cells[i]);
+        continue;
+      }
       score.true_occupied += occupied;
       score.true_free += free;
       found_occupied += occupied && near_obstacle;
@@ -83,18 +101,15 @@ void count(GridScore& score, const GridMap& map, const TrueCells& truth) {
         ++free_of_ground;
         found_of_ground += map.cells[i] == Cell::free;
       }
+      count_state(score, map.cells[i]);
       if (map.cells[i] == Cell::free) {
-        ++score.free;
         unobserved += !occupied && !free;
         known_free += occupied || free;
         right += free;
         safe += free || (occupied && near_obstacle);
       } else if (map.cells[i] == Cell::occupied) {
-        ++score.occupied;
         judged_occupied += occupied || free || near_truth;
         right_occupied += near_truth;
-      } else {
-        ++score.unknown;
       }
     }
   score.free_precision = share(safe, known_free);

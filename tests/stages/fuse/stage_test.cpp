@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 
 #include "pipeline/artifacts/cloud.hpp"
@@ -84,6 +86,25 @@ TEST_CASE("the stage fuse writes equal bytes with 1 and with 4 threads in every 
   CHECK(contract::read_manifest(scene.folder / "one").id() ==
         contract::read_manifest(scene.folder / "four").id());
   CHECK(read_cloud(scene.folder / "one").size() == kFrames * 27 * 23);
+}
+
+TEST_CASE("frames that are no keyframes fill only what no keyframe saw, the same at any thread count") {
+  const Scene scene;
+  REQUIRE(scene.run("--out " + scene.path("plain")).code == 0);
+  REQUIRE(scene.run("--fill-m 0.01 --threads 1 --out " + scene.path("one")).code == 0);
+  REQUIRE(scene.run("--fill-m 0.01 --threads 4 --out " + scene.path("four")).code == 0);
+  CHECK(contract::read_manifest(scene.folder / "one").id() ==
+        contract::read_manifest(scene.folder / "four").id());
+  const LabelledCloud plain = read_cloud(scene.folder / "plain"), filled = read_cloud(scene.folder / "one");
+  REQUIRE(filled.size() > plain.size());
+  CHECK(std::equal(plain.begin(), plain.end(), filled.begin()));
+  const auto metrics = contract::Json::parse(std::ifstream(scene.folder / "one/metrics.json"));
+  CHECK(metrics["frames_filling"] == kFrames - 3);
+  CHECK(metrics["points_filling"] == filled.size() - plain.size());
+  // Pixels of the wall are 6.7 cm apart: where a keyframe has a point within a centimetre, no other frame
+  // adds one.
+  for (std::size_t i = plain.size(); i < filled.size(); ++i)
+    for (const LabelledPoint& p : plain) REQUIRE(std::hypot(p.x - filled[i].x, p.y - filled[i].y) > 0.01);
 }
 
 TEST_CASE("the stage fuse runs without masks: everything is static and unlabelled") {
