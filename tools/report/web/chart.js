@@ -26,7 +26,7 @@ export function chart(series, options) {
   let marker = null, scaleX = null, at = null;
   const place = responsive((width) => {
     const height = options.equal ? Math.min(width, 460) : options.height ?? 240;
-    const left = 52, right = 12, top = 22, bottom = 34;
+    const left = 52, right = 22, top = 22, bottom = 34;
     const all = series.flatMap((one) => one.points).filter(Boolean);
     let [x0, x1] = options.xRange ?? extent(all, 0), [y0, y1] = extent(all, 1);
     if (options.fromZero) y0 = Math.min(0, y0);

@@ -1,5 +1,5 @@
 // Points as the page holds them, and the colours they are shown in.
-import { facts, moved, turbo } from "./facts.js";
+import { facts, turbo } from "./facts.js";
 
 /** The block of a cloud or an octree: positions in the world, and where that is in the frame of the map. */
 export function unpack(part, bytes, m) {
@@ -10,7 +10,10 @@ export function unpack(part, bytes, m) {
       const at = 6 * i + 2 * k;
       positions[3 * i + k] = origin[k] + step[k] * (bytes[at] | bytes[at + 1] << 8);
     }
-    [x[i], y[i], heights[i]] = moved(m, [positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]]);
+    const px = positions[3 * i], py = positions[3 * i + 1], pz = positions[3 * i + 2];
+    x[i] = m[0] * px + m[1] * py + m[2] * pz + m[3];
+    y[i] = m[4] * px + m[5] * py + m[6] * pz + m[7];
+    heights[i] = m[8] * px + m[9] * py + m[10] * pz + m[11];
   }
   return { count, positions, x, y, heights,
     rgb: bytes.subarray(6 * count, 9 * count), labels: bytes.subarray(9 * count, 10 * count), levels: bytes.subarray(10 * count, 11 * count) };
@@ -34,8 +37,10 @@ function classColor(rgb, image, i) {
   return rgb.map((value) => Math.min(255, value * (0.72 + 0.28 * grey / 160)));
 }
 
+/** Of many values every n-th is enough to tell. */
 export function quantile(values, share) {
   if (!values.length) return 0;
-  const sorted = Float32Array.from(values).sort();
+  const every = Math.ceil(values.length / 20000);
+  const sorted = (every > 1 ? values.filter((_, i) => i % every === 0) : Float32Array.from(values)).sort();
   return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
 }

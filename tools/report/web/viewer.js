@@ -2,7 +2,7 @@
 // brings them to the frame of the grid map, where z is up.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { blockBytes, frame, mapFromWorld } from "./facts.js";
+import { blockBytes, frame, mapFromWorld, moved } from "./facts.js";
 import { colorsOf, quantile, unpack } from "./points.js";
 import { cameraPath, frusta, gridPlane, oneFrustum, truthPath } from "./scene_lines.js";
 
@@ -57,7 +57,7 @@ export class Viewer {
     return object;
   }
 
-  /** Where things are: without the outermost hundredth, so that one stray point does not shrink the rest. */
+  /** Where things are: the cameras, and the points without the outermost hundredth, so that a stray one does not shrink the rest. */
   measure() {
     const data = this.instance.clouds.length ? this.pointsOf(this.instance.clouds.at(-1)) : this.instance.octree ? this.pointsOf(this.instance.octree) : null;
     if (!data) {
@@ -68,7 +68,9 @@ export class Viewer {
       return;
     }
     const { x, y, heights: z } = data;
-    const ends = [x, y, z].map((axis) => [quantile(axis, 0.01), quantile(axis, 0.99)]);
+    const path = (this.instance.trajectory?.poses ?? []).map((pose) => moved(this.m, pose));
+    const ends = [x, y, z].map((axis, k) => [
+      path.reduce((low, at) => Math.min(low, at[k]), quantile(axis, 0.01)), path.reduce((high, at) => Math.max(high, at[k]), quantile(axis, 0.99))]);
     this.center = new THREE.Vector3(...ends.map(([low, high]) => (low + high) / 2));
     this.reach = Math.max(0.5, Math.hypot(...ends.slice(0, 2).map(([low, high]) => high - low)) / 2);
     this.range = [quantile(z, 0.002), quantile(z, 0.998)];
