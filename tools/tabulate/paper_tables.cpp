@@ -23,8 +23,9 @@ Cell percents(double share) {
   return shown(share, 1, 100);
 }
 std::string name_of(const MapSizes& sizes) {
-  const PaperSequence* paper = paper_sequence(sizes.sequence);
-  return paper ? paper->shown : sizes.sequence;
+  if (const PaperSequence* paper = paper_sequence(sizes.sequence)) return paper->shown;
+  constexpr std::string_view kPrefix = "rgbd_dataset_";
+  return sizes.sequence.starts_with(kPrefix) ? sizes.sequence.substr(kPrefix.size()) : sizes.sequence;
 }
 
 Table size_table(const std::vector<MapSizes>& all) {
@@ -91,6 +92,11 @@ Table band_table(const std::vector<MapSizes>& all, const Band& band) {
     rows[row][column] = &one;
     together[{row.begin() + 1, row.end()}][column].push_back(band.ratio(one));
   }
+  std::map<std::string, std::size_t> place;  // sequences as they come, what belongs to one together
+  for (const auto& row : order) place.try_emplace(row.front(), place.size());
+  std::sort(order.begin(), order.end(), [&](const auto& x, const auto& y) {
+    return std::pair(place[x.front()], x) < std::pair(place[y.front()], y);
+  });
   Table table{band.headings, {}};
   for (const double column : columns) table.headings.push_back(formatted("%g %s", column, band.unit.c_str()));
   for (const auto& row : order) {
@@ -216,31 +222,6 @@ PaperTables paper_tables(std::span<const RunFacts> base_facts, std::span<const R
   tables.settings = base.front().settings +
                     formatted("; voxel.leaf %g m; octree.resolution_m %g", base.front().leaf_m, resolution_m);
   return tables;
-}
-
-std::string paper_page(const PaperTables& tables, const std::string& chart) {
-  std::string text = "## Sizes of the maps\n\nMB = 10^6 bytes of the file. Ours: " + tables.settings +
-                     ". The paper says neither its encoding, fields nor whether MB are 10^6 or 2^20 bytes: "
-                     "ratios are the fair comparison.\n\n" +
-                     to_markdown(tables.sizes) + "\n![Sizes of the maps](" + chart + ")\n";
-  if (!tables.missing.empty()) {
-    text += "\nMissing, because no folder of the recording was given:";
-    for (std::size_t i = 0; i < tables.missing.size(); ++i) text += (i ? ", " : " ") + tables.missing[i];
-    text += ".\n";
-  }
-  text += "\n## What SOR removes\n\n" + to_markdown(tables.sor);
-  text +=
-      "\n## Which settings give the paper's ratios\n\nShare of the dense cloud [%] that SOR and the voxel "
-      "filter leave, over the side of a "
-      "voxel and the frames that are fused. Bold: within 3 points of the paper's ratio for that sequence, "
-      "or, for a recording that is not "
-      "the paper's, within its band of 18 to 50 %.\n\n" +
-      to_markdown(tables.leaf_band) +
-      "\nSize of map.ot as a share of the dense cloud [%], over the side of a voxel and the octree's "
-      "resolution. Bold: within the paper's "
-      "16.5 to 35 %.\n\n" +
-      to_markdown(tables.tree_band);
-  return text;
 }
 
 }  // namespace sediment::tabulate
