@@ -30,14 +30,15 @@ struct Bundle {
 
 struct AdjustmentRule {
   int max_iterations = 10;
-  bool robust = true;   ///< Huber loss at the 95 % bound; plain least squares without
-  bool timing = false;  ///< finds the sensor's timing too, with a weak prior at 0 where nothing tells it
+  bool robust = true;     ///< Huber loss at the 95 % bound; plain least squares without
+  bool timing = false;    ///< finds the sensor's timing too, with a weak prior at 0 where nothing tells it
+  bool parallel = false;  ///< over several threads; only where no other work is waiting for them
 };
 
 /// Minimises the sum of the squared residuals over all cameras that are not fixed and over all points, in
-/// place (Triggs et al., Bundle Adjustment: a Modern Synthesis, 2000; Ceres, points eliminated first). One
-/// thread: the order of all sums is fixed. Returns the final cost. Throws std::runtime_error if the solver
-/// fails.
+/// place (Triggs et al., Bundle Adjustment: a Modern Synthesis, 2000): Levenberg-Marquardt, points eliminated
+/// first. The order of all sums is fixed. Returns the final cost. Throws std::runtime_error if a point starts
+/// behind a camera that measures it.
 double adjust(Bundle& bundle, const Pinhole& pinhole, const AdjustmentRule& rule);
 
 /// Squared residual of an observation in standard deviations; a large number behind the camera.

@@ -1,5 +1,6 @@
 #include "stages/track/given_poses.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -32,6 +33,17 @@ std::vector<FrameTracking> resample(const Trajectory& given, const std::vector<s
     frames.push_back(std::move(frame));
   }
   return frames;
+}
+
+Gaps gaps_of(const Trajectory& given, double max_gap_s) {
+  Gaps gaps;
+  for (std::size_t i = 1; i < given.size(); ++i) {
+    const double gap_s = given[i].stamp_s - given[i - 1].stamp_s;
+    if (gap_s <= max_gap_s) continue;
+    ++gaps.count;
+    gaps.longest_s = std::max(gaps.longest_s, gap_s);
+  }
+  return gaps;
 }
 
 }  // namespace sediment::track

@@ -13,4 +13,11 @@ namespace sediment::track {
 std::vector<FrameTracking> resample(const Trajectory& given, const std::vector<std::string>& stamps,
                                     const std::vector<double>& stamps_s, double max_gap_s, Trajectory& poses);
 
+/// Where neighbouring poses are further apart in time than what is interpolated.
+struct Gaps {
+  std::size_t count = 0;
+  double longest_s = 0;  ///< 0 without a gap
+};
+Gaps gaps_of(const Trajectory& given, double max_gap_s);
+
 }  // namespace sediment::track

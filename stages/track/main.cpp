@@ -20,6 +20,7 @@ track::Recording recording_of(const Sequence& sequence, const DynamicMasksReader
     recording.depth_stamps_s.push_back(sequence.entry(i).depth_stamp_s);
   }
   recording.frame = [&sequence](std::size_t i) { return sequence.frame(i); };
+  recording.depth = [&sequence](std::size_t i) { return sequence.depth(i); };
   if (masks)
     recording.dynamic_mask = [&sequence, masks](std::size_t i) {
       return masks->read(sequence.entry(i).stamp);
@@ -27,11 +28,16 @@ track::Recording recording_of(const Sequence& sequence, const DynamicMasksReader
   return recording;
 }
 
-track::Tracked poses_given(const track::Recording& recording, const contract::Work& work, double max_gap_s) {
+track::Tracked poses_given(const track::Recording& recording, contract::Work& work, double max_gap_s) {
   if (!work.has("poses")) throw contract::UsageError("engine given needs --poses FILE");
+  const GroundTruth given = read_ground_truth(work.in("poses"));
+  const track::Gaps gaps = track::gaps_of(given.trajectory, max_gap_s);
+  work.metrics()["given_repeated"] = given.repeated;
+  work.metrics()["given_gaps"] = gaps.count;
+  work.metrics()["given_longest_gap_s"] = gaps.longest_s;
   track::Tracked result;
-  result.frames = track::resample(read_tum_trajectory(work.in("poses")), recording.stamps, recording.stamps_s,
-                                  max_gap_s, result.poses);
+  result.frames =
+      track::resample(given.trajectory, recording.stamps, recording.stamps_s, max_gap_s, result.poses);
   return result;
 }
 
@@ -46,6 +52,9 @@ int main(int argc, char** argv) {
   stage.writes("trajectory", kind::kTrajectory, "a pose for every frame that could be tracked");
   stage.tunes("engine", parameters.engine, "track the images, or take the poses given",
               contract::Choices<track::Engine>{{"orb", track::Engine::orb}, {"given", track::Engine::given}});
+  stage.tunes(
+      "mode", parameters.mode, "poses from the whole recording, or each from its past alone",
+      contract::Choices<track::Mode>{{"offline", track::Mode::offline}, {"causal", track::Mode::causal}});
   stage.tunes("features", parameters.features, "ORB features a frame", {100, 10000});
   stage.tunes("mask_halo_px", parameters.mask_halo_px, "no feature this close to a dynamic pixel", {0, 100});
   stage.tunes("depth_max_m", parameters.depth_max_m, "depth beyond is not used, metres", {0.1, 1000});
@@ -53,8 +62,8 @@ int main(int argc, char** argv) {
               {1e-6, 1});
   stage.tunes("pixel_noise_px", parameters.pixel_noise_px,
               "standard deviation of a feature's position, pixels", {0.01, 10});
-  stage.tunes("passes", parameters.passes, "over the recording; later ones know its motion and timing",
-              {1, 5});
+  stage.tunes("passes", parameters.passes,
+              "of measuring and adjusting the map; later ones know motion and timing", {1, 5});
   stage.tunes("min_coverage", parameters.min_coverage, "an error if a smaller share of the frames has a pose",
               {0, 1});
   stage.tunes("max_gap_s", parameters.max_gap_s, "engine given: longest gap that is interpolated, seconds",
@@ -72,6 +81,8 @@ int main(int argc, char** argv) {
     work.metrics()["tracked"] = result.poses.size();
     work.metrics()["coverage"] = track::coverage(result.frames);
     work.metrics()["landmarks"] = result.landmarks;
+    work.metrics()["segments"] = result.segments;
+    work.metrics()["loops"] = result.loops;
     work.metrics()["readout_s"] = result.timing.readout_s;
     work.metrics()["depth_lag_s"] = result.timing.depth_lag_s;
     track::require_coverage(result.frames, parameters.min_coverage);

@@ -1,6 +1,7 @@
 #include "stages/track/map.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace sediment::track {
 namespace {
@@ -12,6 +13,27 @@ auto by_keyframe(const Sighting& a, const Sighting& b) {
 bool seen_in(const MapPoint& point, int keyframe_idx) {
   return std::binary_search(point.sightings.begin(), point.sightings.end(), Sighting{keyframe_idx, 0},
                             by_keyframe);
+}
+
+constexpr std::size_t kVoters = 16;  // latest sightings: enough for a fair vote
+
+// The descriptor whose median distance to the others is least.
+__attribute__((target_clones("popcnt", "default"))) std::size_t most_central(
+    const std::vector<const Descriptor*>& descriptors) {
+  std::size_t central = 0;
+  int best = 257;
+  std::array<int, kVoters> distances{};
+  for (std::size_t i = 0; i < descriptors.size(); ++i) {
+    for (std::size_t j = 0; j < descriptors.size(); ++j)
+      distances[j] = hamming_distance(*descriptors[i], *descriptors[j]);
+    const auto middle = distances.begin() + descriptors.size() / 2;
+    std::nth_element(distances.begin(), middle, distances.begin() + descriptors.size());
+    if (*middle < best) {
+      best = *middle;
+      central = i;
+    }
+  }
+  return central;
 }
 
 }  // namespace
@@ -61,35 +83,33 @@ void Map::merge_points(int kept, int given_up) {
   refresh_point(kept);
 }
 
-void Map::refresh_point(int point_id) {
+void Map::refresh_geometry(int point_id) {
   MapPoint& point = points[point_id];
   if (point.sightings.empty()) return;
   Vec3 sum{};
   for (const Sighting& s : point.sightings)
     sum = sum + normalized(point.position - keyframes[s.keyframe_idx].world_from_camera.translation);
   point.viewing_direction = norm(sum) > 1e-9 ? normalized(sum) : sum;
-
-  // The descriptor whose median distance to the others is least; enough of them for a fair vote.
-  const std::size_t voters = std::min<std::size_t>(point.sightings.size(), 16);
-  const std::size_t first = point.sightings.size() - voters;
-  int best = 257;
-  for (std::size_t i = first; i < point.sightings.size(); ++i) {
-    std::vector<int> distances;
-    for (std::size_t j = first; j < point.sightings.size(); ++j)
-      distances.push_back(hamming_distance(descriptor(point.sightings[i]), descriptor(point.sightings[j])));
-    std::nth_element(distances.begin(), distances.begin() + distances.size() / 2, distances.end());
-    const int median = distances[distances.size() / 2];
-    if (median < best) {
-      best = median;
-      point.descriptor = descriptor(point.sightings[i]);
-    }
-  }
-
   const Sighting& latest = point.sightings.back();
   const Keyframe& keyframe = keyframes[latest.keyframe_idx];
   const double distance_m = norm(point.position - keyframe.world_from_camera.translation);
   point.max_distance_m = distance_m * kLevelScale[keyframe.features->feature(latest.feature_idx).octave];
   point.min_distance_m = point.max_distance_m / kLevelScale[kPyramidLevels - 1];
+}
+
+void Map::refresh_point(int point_id) {
+  refresh_geometry(point_id);
+  MapPoint& point = points[point_id];
+  if (point.sightings.empty()) return;
+  std::vector<const Descriptor*> descriptors;
+  const std::size_t first = point.sightings.size() - std::min(point.sightings.size(), kVoters);
+  for (std::size_t i = first; i < point.sightings.size(); ++i)
+    descriptors.push_back(&descriptor(point.sightings[i]));
+  point.descriptor = *descriptors[most_central(descriptors)];
+}
+
+bool Map::sees(int keyframe_idx, int point_id) const {
+  return seen_in(points[point_id], keyframe_idx);
 }
 
 std::vector<std::pair<int, int>> Map::covisible(int keyframe_idx, int least) const {

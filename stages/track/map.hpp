@@ -34,6 +34,7 @@ struct Keyframe {
   std::shared_ptr<const DenseFrame> dense;
   std::vector<int> point_ids;  ///< per feature, -1 = none
   double noise_scale = 1;      ///< of its measurements, as PoseEstimate
+  int segment = 0;             ///< keyframes of different segments have nothing in common, not even the world
 };
 
 /// How two keyframes lie to each other by the alignment of their whole images: what holds the map together
@@ -60,8 +61,11 @@ class Map {
   void remove_point(int point_id);
   /// `kept` takes over the sightings of `given_up` in keyframes where it has none.
   void merge_points(int kept, int given_up);
-  /// Recomputes descriptor, viewing direction and range from the sightings.
+  /// Recomputes viewing direction and range from the sightings.
+  void refresh_geometry(int point_id);
+  /// The same and the descriptor: after a change of the sightings.
   void refresh_point(int point_id);
+  bool sees(int keyframe_idx, int point_id) const;
   const Descriptor& descriptor(Sighting sighting) const {
     return keyframes[sighting.keyframe_idx].features->descriptor(sighting.feature_idx);
   }

@@ -1,6 +1,7 @@
 #include "stages/track/map_adjustment.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace sediment::track {
 namespace {
@@ -63,16 +64,20 @@ void write_back(const Extract& part, Map& map) {
 
 // Takes out what does not fit, and landmarks that nothing holds any more.
 void drop_outliers(const Extract& part, const Pinhole& pinhole, Map& map) {
+  std::vector<char> changed(part.point_id.size(), 0);
   for (std::size_t i = 0; i < part.sightings.size(); ++i) {
     const Bundle::Observation& o = part.bundle.observations[i];
-    if (chi_square(part.bundle, o, pinhole) > chi_square_bound(o.measurement))
-      map.disconnect(part.point_id[o.point_idx], part.sightings[i].keyframe_idx);
+    if (chi_square(part.bundle, o, pinhole) <= chi_square_bound(o.measurement)) continue;
+    map.disconnect(part.point_id[o.point_idx], part.sightings[i].keyframe_idx);
+    changed[o.point_idx] = 1;
   }
-  for (const int point_id : part.point_id)
-    if (map.points[point_id].sightings.empty())
-      map.remove_point(point_id);
+  for (std::size_t i = 0; i < part.point_id.size(); ++i)
+    if (map.points[part.point_id[i]].sightings.empty())
+      map.remove_point(part.point_id[i]);
+    else if (changed[i])
+      map.refresh_point(part.point_id[i]);
     else
-      map.refresh_point(point_id);
+      map.refresh_geometry(part.point_id[i]);
 }
 
 }  // namespace
@@ -114,10 +119,12 @@ void adjust_around(Map& map, int keyframe_idx, const Pinhole& pinhole) {
 
 SensorTiming adjust_all(Map& map, const Pinhole& pinhole, const SensorTiming& timing) {
   std::vector<std::pair<int, bool>> keyframes;
-  for (int i = 0; i < static_cast<int>(map.keyframes.size()); ++i) keyframes.emplace_back(i, i == 0);
+  std::vector<char> begun(map.keyframes.size(), 0);  // the first one of a segment stays where it is
+  for (int i = 0; i < static_cast<int>(map.keyframes.size()); ++i)
+    keyframes.emplace_back(i, !std::exchange(begun[map.keyframes[i].segment], 1));
   const auto adjusted = [&](Extract part, bool robust, bool timed) {
     part.bundle.timing = timing;
-    const double cost = adjust(part.bundle, pinhole, {kFullIterations, robust, timed});
+    const double cost = adjust(part.bundle, pinhole, {kFullIterations, robust, timed, true});
     return std::pair(cost, std::move(part));
   };
   const Extract with_outliers = adjusted(extract(map, keyframes, pinhole), true, true).second;

@@ -1,6 +1,7 @@
 #include "stages/track/mapping.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "stages/track/map_adjustment.hpp"
 
@@ -18,8 +19,24 @@ void create_points(Map& map, int keyframe_idx, const Pinhole& pinhole) {
   }
 }
 
-// Finds landmarks in a keyframe that does not have them yet: joins them with the landmark its feature shows
-// already, or lets it see them.
+void cull_recent_points(Map& map, int keyframe_idx) {
+  constexpr int kOldest = 3;
+  // Points are in the order of the keyframes that made them.
+  const auto recent = std::lower_bound(
+      map.points.begin(), map.points.end(), keyframe_idx - kOldest,
+      [](const MapPoint& point, int first_idx) { return point.first_keyframe_idx < first_idx; });
+  for (auto point_id = recent - map.points.begin(); point_id < std::ssize(map.points); ++point_id) {
+    const MapPoint& point = map.points[point_id];
+    const int age = keyframe_idx - point.first_keyframe_idx;
+    if (point.removed || age < 1) continue;
+    const bool seldom_found = 4 * point.found < point.expected;
+    const bool alone = age >= kOldest && point.sightings.size() < 2;
+    if (seldom_found || alone) map.remove_point(static_cast<int>(point_id));
+  }
+}
+
+}  // namespace
+
 void fuse_into(Map& map, int keyframe_idx, const std::vector<int>& point_ids, const Pinhole& pinhole) {
   const Keyframe& keyframe = map.keyframes[keyframe_idx];
   std::vector<char> present(map.points.size(), 0);
@@ -50,26 +67,22 @@ void fuse_into(Map& map, int keyframe_idx, const std::vector<int>& point_ids, co
   }
 }
 
-void cull_recent_points(Map& map, int keyframe_idx) {
-  for (std::size_t point_id = 0; point_id < map.points.size(); ++point_id) {
-    const MapPoint& point = map.points[point_id];
-    const int age = keyframe_idx - point.first_keyframe_idx;
-    if (point.removed || age < 1 || age > 3) continue;
-    const bool seldom_found = 4 * point.found < point.expected;
-    const bool alone = age >= 3 && point.sightings.size() < 2;
-    if (seldom_found || alone) map.remove_point(static_cast<int>(point_id));
-  }
-}
-
-}  // namespace
-
 std::vector<int> points_of(const Map& map, const std::vector<int>& keyframes) {
-  std::vector<int> point_ids;
+  int least = std::numeric_limits<int>::max(), most = -1;
+  for (const int keyframe_idx : keyframes)
+    for (const int point_id : map.keyframes[keyframe_idx].point_ids) {
+      if (point_id < 0) continue;
+      least = std::min(least, point_id);
+      most = std::max(most, point_id);
+    }
+  if (most < 0) return {};
+  std::vector<char> seen(most - least + 1, 0);
   for (const int keyframe_idx : keyframes)
     for (const int point_id : map.keyframes[keyframe_idx].point_ids)
-      if (point_id >= 0) point_ids.push_back(point_id);
-  std::sort(point_ids.begin(), point_ids.end());
-  point_ids.erase(std::unique(point_ids.begin(), point_ids.end()), point_ids.end());
+      if (point_id >= 0) seen[point_id - least] = 1;
+  std::vector<int> point_ids;
+  for (int point_id = least; point_id <= most; ++point_id)
+    if (seen[point_id - least]) point_ids.push_back(point_id);
   return point_ids;
 }
 

@@ -8,8 +8,10 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "stages/track/completion.hpp"
+#include "stages/track/loop_closing.hpp"
 #include "stages/track/map_adjustment.hpp"
 #include "stages/track/tracker.hpp"
 
@@ -43,8 +45,6 @@ View found_view(const Recording& recording, const Parameters& parameters, const 
                         recording.camera, {}, parameters));
   view.dense = std::make_shared<const DenseFrame>(
       dense_frame(gray, frame.depth, allowed, dense_camera, parameters.depth_noise));
-  view.images =
-      std::make_shared<const DenseImages>(dense_images(*view.dense, dense_camera, parameters.depth_noise));
   return view;
 }
 
@@ -64,16 +64,6 @@ std::shared_ptr<const FrameFeatures> corrected_features(const Recording& recordi
   const cv::Mat depth = recording.depth ? recording.depth(frame_idx) : recording.frame(frame_idx).depth;
   return std::make_shared<const FrameFeatures>(
       measured_features(*hindsight.features[frame_idx], depth, recording.camera, exposure, parameters));
-}
-
-View corrected_view(const Recording& recording, const Parameters& parameters, const DenseCamera& dense_camera,
-                    const Hindsight& hindsight, std::size_t frame_idx) {
-  View view;
-  view.features = corrected_features(recording, parameters, hindsight, frame_idx);
-  view.dense = hindsight.dense[frame_idx];
-  view.images =
-      std::make_shared<const DenseImages>(dense_images(*view.dense, dense_camera, parameters.depth_noise));
-  return view;
 }
 
 // Views of coming frames are made while earlier ones are tracked, one by one and in order.
@@ -113,15 +103,25 @@ Hindsight learn(const Recording& recording, Tracker& tracker, const SensorTiming
   return hindsight;
 }
 
-Tracked collect(const Recording& recording, Tracker& tracker) {
+// The segment with most frames: where others are in its world nobody knows.
+int largest_segment(Tracker& tracker) {
+  std::vector<int> frames_of(tracker.map().keyframes.size() + 1, 0);
+  for (const TrackedFrame& frame : tracker.frames())
+    if (frame.tracked) ++frames_of[tracker.map().keyframes[frame.reference_idx].segment];
+  return static_cast<int>(std::max_element(frames_of.begin(), frames_of.end()) - frames_of.begin());
+}
+
+Tracked collect(const Recording& recording, Tracker& tracker, Mode mode) {
   Tracked result;
   Pose world_from_map;
+  const int segment = largest_segment(tracker);
   for (std::size_t i = 0; i < tracker.frames().size(); ++i) {
     const TrackedFrame& frame = tracker.frames()[i];
     FrameTracking entry;
     entry.stamp = recording.stamps[i];
-    if (frame.tracked) {
-      const Pose pose = camera_from_world(frame, tracker.map()).inverse();
+    if (frame.tracked && tracker.map().keyframes[frame.reference_idx].segment == segment) {
+      const Pose pose = mode == Mode::causal ? frame.world_from_camera_then
+                                             : camera_from_world(frame, tracker.map()).inverse();
       if (result.poses.empty()) world_from_map = pose.inverse();
       result.poses.push_back({recording.stamps[i], recording.stamps_s[i], world_from_map * pose});
       entry.state = TrackingState::tracked;
@@ -133,6 +133,9 @@ Tracked collect(const Recording& recording, Tracker& tracker) {
     result.frames.push_back(std::move(entry));
   }
   for (const MapPoint& point : tracker.map().points) result.landmarks += !point.removed;
+  std::vector<char> segments(tracker.map().keyframes.size(), 0);
+  for (const Keyframe& keyframe : tracker.map().keyframes)
+    result.segments += !std::exchange(segments[keyframe.segment], 1);
   return result;
 }
 
@@ -141,22 +144,15 @@ void share_with_keyframes(Tracker& tracker) {
     keyframe.features = tracker.frames()[keyframe.frame_idx].features;
 }
 
-// Measures the features of the keyframes again with what the first pass tells of the camera's motion.
-void measure_keyframes_again(const Recording& recording, const Parameters& parameters, Tracker& tracker) {
-  const Hindsight hindsight = learn(recording, tracker, {});
+// Measures features again with what the poses tell of the camera's motion: of the keyframes, or of the
+// others.
+void measure_again(const Recording& recording, const Parameters& parameters, const SensorTiming& timing,
+                   bool keyframes, Tracker& tracker) {
+  const Hindsight hindsight = learn(recording, tracker, timing);
   tbb::parallel_for(std::size_t{0}, tracker.frames().size(), [&](std::size_t i) {
     TrackedFrame& frame = tracker.frames()[i];
-    if (frame.keyframe) frame.features = corrected_features(recording, parameters, hindsight, i);
+    if (frame.keyframe == keyframes) frame.features = corrected_features(recording, parameters, hindsight, i);
   });
-  share_with_keyframes(tracker);
-}
-
-void retime(const Camera& camera, const SensorTiming& before, const SensorTiming& after, Tracker& tracker) {
-  const SensorTiming change{after.readout_s - before.readout_s, after.depth_lag_s - before.depth_lag_s};
-  if (change.readout_s == 0 && change.depth_lag_s == 0) return;
-  for (TrackedFrame& frame : tracker.frames())
-    frame.features = std::make_shared<const FrameFeatures>(
-        retimed_features(*frame.features, change, camera.width, camera.height));
   share_with_keyframes(tracker);
 }
 
@@ -181,30 +177,31 @@ Tracked track(const Recording& recording, const Parameters& parameters,
   require_forward_time(recording);
   const Pinhole pinhole = pinhole_of(recording.camera, parameters);
   const DenseCamera dense_camera(recording.camera);
-  auto tracker = std::make_unique<Tracker>(pinhole, dense_camera, parameters);
+  Tracker tracker(pinhole, dense_camera, parameters);
   run_front_end(
       recording, [&](std::size_t i) { return found_view(recording, parameters, dense_camera, i); }, advance,
-      *tracker);
+      tracker);
+  if (parameters.mode == Mode::causal) return collect(recording, tracker, Mode::causal);
   SensorTiming timing;
-  if (tracker->map().keyframes.size() > 1) {
-    measure_keyframes_again(recording, parameters, *tracker);
-    timing = adjust_all(tracker->map(), pinhole, timing);
+  LoopClosing closing;
+  if (tracker.map().keyframes.size() > 1) {
+    closing = close_loops(tracker.map(), pinhole, dense_camera, parameters.depth_noise);
+    measure_again(recording, parameters, timing, true, tracker);
+    timing = adjust_all(tracker.map(), pinhole, timing);
+    if (worth_another_pass(recording, learn(recording, tracker, timing))) {
+      for (int pass = 1; pass < parameters.passes; ++pass) {
+        measure_again(recording, parameters, timing, true, tracker);
+        match_again(tracker.map(), pinhole);
+        timing = adjust_all(tracker.map(), pinhole, timing);
+      }
+      measure_again(recording, parameters, timing, false, tracker);
+    }
   }
-  for (int pass = 2; pass <= parameters.passes && tracker->map().keyframes.size() > 1; ++pass) {
-    const Hindsight hindsight = learn(recording, *tracker, timing);
-    if (!worth_another_pass(recording, hindsight)) break;
-    tracker = std::make_unique<Tracker>(pinhole, dense_camera, parameters);
-    run_front_end(
-        recording,
-        [&](std::size_t i) { return corrected_view(recording, parameters, dense_camera, hindsight, i); }, {},
-        *tracker);
-    timing = adjust_all(tracker->map(), pinhole, timing);
-    retime(recording.camera, hindsight.timing, timing, *tracker);
-    timing = adjust_all(tracker->map(), pinhole, timing);
-  }
-  refine_frames(*tracker, pinhole);
-  Tracked result = collect(recording, *tracker);
+  find_lost_frames(tracker, pinhole);
+  refine_frames(tracker, pinhole);
+  Tracked result = collect(recording, tracker, Mode::offline);
   result.timing = timing;
+  result.loops = closing.loops;
   return result;
 }
 

@@ -28,11 +28,14 @@ struct Tracked {
   Trajectory poses;                   ///< of the frames that have one; the first one's camera is the world
   std::vector<FrameTracking> frames;  ///< one a frame of the recording
   std::size_t landmarks = 0;
+  int segments = 0;     ///< parts of the recording that could not be joined; poses are those of the largest
+  int loops = 0;        ///< pairs of keyframes found to show one place
   SensorTiming timing;  ///< as found from the recording
 };
 
-/// Camera poses of a recording from its ORB features: front end, map, and, after the last frame, an
-/// adjustment of everything and a pose for every frame from the final map. The same for any number of
+/// Camera poses of a recording from its ORB features: front end, map, and, after the last frame, closing of
+/// loops, an adjustment of everything and a pose for every frame from the final map. Mode::causal: the poses
+/// that the front end had at each frame. The same for any number of
 /// threads. Throws std::runtime_error where time does not go forward.
 Tracked track(const Recording& recording, const Parameters& parameters, const std::function<void()>& advance);
 

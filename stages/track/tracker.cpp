@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "stages/track/mapping.hpp"
-#include "stages/track/registration.hpp"
 
 namespace sediment::track {
 namespace {
@@ -14,6 +13,7 @@ constexpr int kLeastToFollow = 15;   // inliers that make a first pose
 constexpr int kLeastToAccept = 20;   // inliers that make a pose
 constexpr int kLeastToRecover = 20;  // inliers without any guess of the pose
 constexpr int kLocalKeyframes = 30;
+constexpr int kPlenty = 150;     // landmarks of the last frame found again
 constexpr int kFewInliers = 80;  // below, a keyframe hangs on the alignment of whole images too
 constexpr double kLongestPrediction_s = 1.0;
 constexpr double kFarTurn_rad = 0.2, kFarMove_m = 0.15;  // from a keyframe: time for a new one
@@ -31,27 +31,48 @@ void Tracker::track(double stamp_s, const View& view) {
   frame.features = view.features;
   frame.dense = view.dense;
   frames_.push_back(std::move(frame));
-  images_ = view.images;
+  images_ = nullptr;
   if (map_.keyframes.empty()) {
     start_map();
     return;
   }
   std::optional<Found> found;
-  if (auto predicted = predicted_pose()) {
-    if (const auto aligned = aligned_to_last(*predicted)) predicted = aligned;
-    found = follow_last_frame(*predicted);
-    if (found) found = match_local_map(*found);
-    if (!found) found = align_to_keyframe(*predicted);
-  }
+  if (const auto predicted = predicted_pose()) found = find_nearby(*predicted);
   if (!found) {
-    found = recover_from(frames_[last_tracked_].reference_idx);
+    found = locate(map_, frames_[last_tracked_].reference_idx, *view.features, pinhole_, kLeastToRecover);
     if (found) found = match_local_map(*found);
   }
   if (!found) {
     found = relocalise();
     if (found) found = match_local_map(*found);
   }
-  if (found) accept(*found);
+  if (found)
+    accept(*found);
+  else if (wants_segment())
+    start_map();
+}
+
+// Where the camera is lost for long it may be somewhere new: a map of its own begins, which a loop may join.
+bool Tracker::wants_segment() const {
+  constexpr int kLostFor = 5;
+  return parameters_.mode == Mode::offline &&
+         static_cast<int>(frames_.size()) - 1 - last_tracked_ >= kLostFor;
+}
+
+// From a good guess of the pose. Whole images are aligned only where features tell little: it takes longer.
+std::optional<Tracker::Found> Tracker::find_nearby(const Pose& predicted) {
+  Pose start = predicted;
+  std::optional<Found> found = follow_last_frame(start);
+  if (!found || found->estimate.inliers < kPlenty) {
+    if (const auto aligned = aligned_to_last(predicted)) {
+      start = *aligned;
+      auto again = follow_last_frame(start);
+      if (again && (!found || again->estimate.inliers >= found->estimate.inliers)) found = std::move(again);
+    }
+  }
+  if (found) found = match_local_map(*found);
+  if (!found) found = align_to_keyframe(start);
+  return found;
 }
 
 bool Tracker::start_map() {
@@ -64,8 +85,10 @@ bool Tracker::start_map() {
       add_keyframe(map_, static_cast<int>(frames_.size()) - 1, {}, frame.features, {}, 1, pinhole_);
   frame.matches = frame.inliers = with_depth;
   last_tracked_ = static_cast<int>(frames_.size()) - 1;
-  last_images_ = images_;
+  last_images_ = nullptr;
+  last_matches_.clear();
   map_.keyframes.back().dense = frame.dense;
+  map_.keyframes.back().segment = segments_++;
   for (int i = 0; i < static_cast<int>(frame.features->size()); ++i)
     if (const int point_id = map_.keyframes.back().point_ids[i]; point_id >= 0)
       last_matches_.push_back({i, point_id});
@@ -90,20 +113,6 @@ std::optional<Pose> Tracker::predicted_pose() const {
   return interpolate({}, motion, fraction - std::floor(fraction)) * moved * last_pose;
 }
 
-Tracker::Found Tracker::solve(const std::vector<Match>& matches, const Pose& start) const {
-  std::vector<Correspondence> correspondences;
-  for (const Match& match : matches)
-    correspondences.push_back(
-        {map_.points[match.point_id].position,
-         measurement_of(frames_.back().features->feature(match.feature_idx), pinhole_)});
-  Found found;
-  found.estimate = estimate_pose(correspondences, pinhole_, start);
-  found.tried = static_cast<int>(matches.size());
-  for (std::size_t i = 0; i < matches.size(); ++i)
-    if (found.estimate.inlier[i]) found.matches.push_back(matches[i]);
-  return found;
-}
-
 std::optional<Tracker::Found> Tracker::follow_last_frame(const Pose& predicted) const {
   const FrameFeatures& features = *frames_.back().features;
   const FrameFeatures& last = *frames_[last_tracked_].features;
@@ -120,34 +129,27 @@ std::optional<Tracker::Found> Tracker::follow_last_frame(const Pose& predicted) 
   for (const double radius_px : {15.0, 40.0}) {
     const auto matches = match_targets(targets, features, none_taken, pinhole_, {radius_px, 100, 0.9});
     if (static_cast<int>(matches.size()) < kLeastToFollow) continue;
-    Found found = solve(matches, predicted);
+    Found found = solve_pose(map_, matches, features, pinhole_, predicted);
     if (found.estimate.inliers >= kLeastToFollow && 3 * found.estimate.inliers >= found.tried) return found;
   }
   return {};
 }
 
-std::optional<Tracker::Found> Tracker::recover_from(int keyframe_idx) const {
-  const Keyframe& keyframe = map_.keyframes[keyframe_idx];
-  std::vector<char> used(keyframe.features->size());
-  for (std::size_t i = 0; i < used.size(); ++i) used[i] = keyframe.point_ids[i] >= 0;
-  std::vector<Match> matches;
-  std::vector<Correspondence> correspondences;
-  for (const auto& [first, second] : match_descriptors(*keyframe.features, used, *frames_.back().features)) {
-    matches.push_back({second, keyframe.point_ids[first]});
-    correspondences.push_back({map_.points[matches.back().point_id].position,
-                               measurement_of(frames_.back().features->feature(second), pinhole_)});
-  }
-  const auto estimate = find_pose(correspondences, pinhole_, kLeastToRecover);
-  if (!estimate) return {};
-  Found found{*estimate, {}, static_cast<int>(matches.size())};
-  for (std::size_t i = 0; i < matches.size(); ++i)
-    if (estimate->inlier[i]) found.matches.push_back(matches[i]);
-  return found;
-}
-
-std::optional<Tracker::Found> Tracker::relocalise() const {
-  for (int keyframe_idx = static_cast<int>(map_.keyframes.size()) - 1; keyframe_idx >= 0; --keyframe_idx)
-    if (auto found = recover_from(keyframe_idx)) return found;
+// Against the keyframes that look most like the frame. The index is made again when the map has grown by a
+// quarter; keyframes that it does not know yet are tried first, latest first.
+std::optional<Tracker::Found> Tracker::relocalise() {
+  constexpr int kMostTried = 8;
+  const FrameFeatures& features = *frames_.back().features;
+  if (static_cast<int>(features.size()) < kLeastToRecover) return {};
+  if (!places_ || 4 * map_.keyframes.size() > 5 * places_->size()) places_ = index_of(map_);
+  std::vector<int> tried;
+  for (auto i = std::ssize(map_.keyframes) - 1; i >= std::ssize(*places_); --i)
+    tried.push_back(static_cast<int>(i));
+  if (tried.size() > kMostTried / 2) tried.resize(kMostTried / 2);
+  for (const auto& place : places_->similar(*features.descriptors()))
+    if (static_cast<int>(tried.size()) < kMostTried) tried.push_back(place.place_idx);
+  for (const int keyframe_idx : tried)
+    if (auto found = locate(map_, keyframe_idx, features, pinhole_, kLeastToRecover)) return found;
   return {};
 }
 
@@ -174,7 +176,7 @@ std::optional<Tracker::Found> Tracker::match_local_map(const Found& start) {
   const auto targets = visible_targets(map_, others, pinhole_, start.estimate.camera_from_world);
   const auto more = match_targets(targets, features, taken, pinhole_, {8, 90, 0.8});
   matches.insert(matches.end(), more.begin(), more.end());
-  Found found = solve(matches, start.estimate.camera_from_world);
+  Found found = solve_pose(map_, matches, features, pinhole_, start.estimate.camera_from_world);
   for (const Target& target : targets) ++map_.points[target.point_id].expected;
   for (const Match& match : start.matches) ++map_.points[match.point_id].expected;
   for (const Match& match : found.matches) ++map_.points[match.point_id].found;
@@ -207,7 +209,8 @@ void Tracker::accept(const Found& found) {
       found.estimate.camera_from_world * map_.keyframes[frame.reference_idx].world_from_camera;
   last_tracked_ = static_cast<int>(frames_.size()) - 1;
   last_matches_ = found.matches;
-  last_images_ = images_;
+  last_images_ = nullptr;
+  frame.world_from_camera_then = found.estimate.camera_from_world.inverse();
   if (!wants_keyframe(found)) return;
   frame.keyframe = true;
   const int before = frame.reference_idx;
@@ -215,6 +218,7 @@ void Tracker::accept(const Found& found) {
                                      frame.features, found.matches, found.estimate.noise_scale, pinhole_);
   frame.camera_from_reference = {};
   map_.keyframes.back().dense = frame.dense;
+  map_.keyframes.back().segment = map_.keyframes[before].segment;
   if (found.estimate.inliers < kFewInliers) {
     link(before, frame.reference_idx);
     if (frame.reference_idx - 1 != before) link(frame.reference_idx - 1, frame.reference_idx);

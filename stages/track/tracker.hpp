@@ -7,9 +7,8 @@
 
 #include "stages/track/dense_alignment.hpp"
 #include "stages/track/map.hpp"
-#include "stages/track/matching.hpp"
 #include "stages/track/parameters.hpp"
-#include "stages/track/pose_estimation.hpp"
+#include "stages/track/place_finding.hpp"
 
 namespace sediment::track {
 
@@ -23,13 +22,13 @@ struct TrackedFrame {
   Pose camera_from_reference;
   int matches = 0, inliers = 0;
   double residual_px = 0;
+  Pose world_from_camera_then;  ///< as the front end had it at that time
 };
 
 /// What tracking takes from a frame's images.
 struct View {
   std::shared_ptr<const FrameFeatures> features;
   std::shared_ptr<const DenseFrame> dense;
-  std::shared_ptr<const DenseImages> images;  ///< of `dense`
 };
 
 /// Pose of a tracked frame in the world as the map is now.
@@ -47,25 +46,24 @@ class Tracker {
 
   Map& map() { return map_; }
   std::vector<TrackedFrame>& frames() { return frames_; }
+  const std::vector<TrackedFrame>& frames() const { return frames_; }
 
  private:
-  struct Found {
-    PoseEstimate estimate;
-    std::vector<Match> matches;  ///< inliers only
-    int tried = 0;
-  };
+  using Found = Located;
 
   bool start_map();
+  bool wants_segment() const;
   std::optional<Pose> predicted_pose() const;
-  std::optional<Pose> aligned_to_last(const Pose& predicted) const;
+  std::optional<Found> find_nearby(const Pose& predicted);
+  std::optional<Pose> aligned_to_last(const Pose& predicted);
   std::optional<Found> align_to_keyframe(const Pose& predicted);
   void link(int from_idx, int to_idx);
   const DenseImages& images_of(int keyframe_idx);
+  const DenseImages& current_images();
+  const DenseImages& last_images();
   std::optional<Found> follow_last_frame(const Pose& predicted) const;
-  std::optional<Found> recover_from(int keyframe_idx) const;
-  std::optional<Found> relocalise() const;
+  std::optional<Found> relocalise();
   std::optional<Found> match_local_map(const Found& start);
-  Found solve(const std::vector<Match>& matches, const Pose& start) const;
   void accept(const Found& found);
   bool wants_keyframe(const Found& found) const;
 
@@ -74,10 +72,13 @@ class Tracker {
   Parameters parameters_;
   Map map_;
   std::vector<TrackedFrame> frames_;
-  std::vector<Match> last_matches_;                          ///< of the last tracked frame
-  int last_tracked_ = -1;                                    ///< index into frames_
-  std::shared_ptr<const DenseImages> images_, last_images_;  ///< of this frame, of the last tracked one
-  std::map<int, DenseImages> keyframe_images_;               ///< of the few keyframes aligned to last
+  std::vector<Match> last_matches_;  ///< of the last tracked frame
+  int last_tracked_ = -1;            ///< index into frames_
+  std::shared_ptr<const DenseImages> images_,
+      last_images_;                             ///< of this frame, of the last; made when asked for
+  std::map<int, DenseImages> keyframe_images_;  ///< of the few keyframes aligned to last
+  std::optional<PlaceIndex> places_;            ///< of the keyframes, made when the way is lost
+  int segments_ = 0;
 };
 
 }  // namespace sediment::track

@@ -39,6 +39,15 @@ TEST_CASE("a given pose that is not finite is an error that names its stamp") {
                     Catch::Contains("1.05") && Catch::Contains("finite"));
 }
 
+TEST_CASE("gaps between given poses are counted and the longest is told") {
+  const Trajectory given{at(1.0, 0), at(1.05, 1), at(2.0, 2), at(2.05, 3), at(4.5, 3)};
+  const Gaps gaps = gaps_of(given, 0.1);
+  CHECK(gaps.count == 2);
+  CHECK(gaps.longest_s == Approx(2.45));
+  CHECK(gaps_of(given, 3).count == 0);
+  CHECK(gaps_of({}, 0.1).count == 0);
+}
+
 TEST_CASE("without given poses every frame is lost") {
   Trajectory poses;
   const auto frames = resample({}, {"a", "b"}, {1.0, 2.0}, 0.1, poses);

@@ -1,0 +1,289 @@
+#include "stages/track/normal_equations.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "stages/track/bundle_links.hpp"
+
+namespace sediment::track {
+namespace {
+
+using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+using Wide = Eigen::Matrix<double, 3, 6>;
+
+constexpr std::size_t kParts = 4;
+constexpr double kNearest_m = 0.05;
+constexpr double kLeastDiagonal = 1e-6;  // of what damping multiplies, as in Ceres
+
+Measurement retimed(const Measurement& measurement, const std::array<double, 2>& timing) {
+  Measurement timed = measurement;
+  timed.u_px += timing[0] * timed.u_rate;
+  timed.v_px += timing[0] * timed.v_rate;
+  if (timed.inverse_depth > 0) timed.inverse_depth += timing[1] * timed.depth_rate;
+  return timed;
+}
+
+double squared(const std::array<double, 3>& r) {
+  return r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+}
+
+Eigen::Matrix3d damped_inverse(const Eigen::Matrix3d& matrix, double damping) {
+  Eigen::Matrix3d damped = matrix;
+  for (int i = 0; i < 3; ++i) damped(i, i) += damping * std::max(kLeastDiagonal, matrix(i, i));
+  return damped.inverse();
+}
+
+}  // namespace
+
+NormalEquations::NormalEquations(const Bundle& bundle, const Pinhole& pinhole, const AdjustmentRule& rule)
+    : bundle_(bundle), pinhole_(pinhole), rule_(rule) {
+  int rows = 0;
+  for (const Bundle::Camera& camera : bundle.cameras) row_of_.push_back(camera.fixed ? -1 : rows++);
+  if (rule.timing) timing_row_ = rows++;
+  std::vector<std::size_t> order(bundle.observations.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const auto &left = bundle.observations[a], &right = bundle.observations[b];
+    return left.point_idx != right.point_idx ? left.point_idx < right.point_idx
+                                             : row_of_[left.camera_idx] < row_of_[right.camera_idx];
+  });
+  first_.assign(bundle.points.size() + 1, 0);
+  for (const std::size_t i : order) {
+    const Bundle::Observation& o = bundle.observations[i];
+    sights_.push_back({row_of_[o.camera_idx], o.camera_idx, &o.measurement});
+    ++first_[o.point_idx + 1];
+  }
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  std::vector<char> together(static_cast<std::size_t>(rows) * rows, 0);
+  for (std::size_t point = 0; point < bundle.points.size(); ++point)
+    for (std::size_t a = first_[point]; a < first_[point + 1]; ++a)
+      for (std::size_t b = a; b < first_[point + 1] && sights_[a].row >= 0; ++b)
+        together[static_cast<std::size_t>(sights_[a].row) * rows + sights_[b].row] = 1;
+  for (const Bundle::Link& link : bundle.links) {
+    link_roots_.push_back(root_of(link.information));
+    const auto [low, high] = std::minmax(row_of_[link.from_idx], row_of_[link.to_idx]);
+    if (low >= 0) together[static_cast<std::size_t>(low) * rows + high] = 1;
+  }
+  std::vector<std::pair<int, int>> pairs;
+  for (int row = 0; row < rows; ++row)
+    for (int column = row; column < rows; ++column)
+      if (together[static_cast<std::size_t>(row) * rows + column] || column == timing_row_)
+        pairs.emplace_back(row, column);
+  system_ = std::make_unique<BlockSystem>(rows, std::move(pairs));
+  mixed_.resize(sights_.size());
+  own_.resize(bundle.points.size());
+  slope_.resize(bundle.points.size());
+  point_step_.resize(bundle.points.size());
+  if (timing_row_ >= 0) mixed_timing_.resize(bundle.points.size());
+}
+
+template <class Body>
+void NormalEquations::for_parts(const Body& body) const {
+  const std::size_t points = bundle_.points.size();
+  const auto part = [&](std::size_t i) { body(i, points * i / kParts, points * (i + 1) / kParts); };
+  // A part of a larger computation that waits for others could be given their work meanwhile: only what
+  // stands alone is spread over threads.
+  if (rule_.parallel)
+    tbb::parallel_for(std::size_t{0}, kParts, part);
+  else
+    for (std::size_t i = 0; i < kParts; ++i) part(i);
+}
+
+NormalEquations::Part NormalEquations::empty_part() const {
+  return {std::vector<Block>(system_->blocks(), Block::Zero()),
+          std::vector<Vector6>(system_->rows(), Vector6::Zero())};
+}
+
+NormalEquations::Part NormalEquations::sum(const std::vector<Part>& parts) const {
+  Part total = parts.front();
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    for (std::size_t k = 0; k < total.blocks.size(); ++k) total.blocks[k] += parts[i].blocks[k];
+    for (std::size_t k = 0; k < total.right.size(); ++k) total.right[k] += parts[i].right[k];
+  }
+  return total;
+}
+
+double NormalEquations::cost(const BundleState& state) const {
+  std::array<double, kParts> costs{};
+  for_parts([&](std::size_t part, std::size_t begin, std::size_t end) {
+    for (std::size_t point = begin; point < end; ++point)
+      for (std::size_t i = first_[point]; i < first_[point + 1]; ++i) {
+        const Measurement measurement = retimed(*sights_[i].measurement, state.timing);
+        const Vec3 p = state.cameras[sights_[i].camera_idx] * state.points[point];
+        const double squares = p.z < kNearest_m ? std::numeric_limits<double>::infinity()
+                                                : squared(residual_of(measurement, pinhole_, p));
+        costs[part] += 0.5 * (rule_.robust ? huber(squares, chi_square_bound(measurement)) : squares);
+      }
+  });
+  double total = link_cost(state);
+  for (const double cost : costs) total += cost;
+  if (timing_row_ >= 0) total += 0.5 * timing_cost(bundle_.timing, state.timing);
+  return total;
+}
+
+double NormalEquations::link_cost(const BundleState& state) const {
+  double total = 0;
+  for (std::size_t i = 0; i < bundle_.links.size(); ++i)
+    total += linked(bundle_.links[i], link_roots_[i], state.cameras, rule_.robust).cost;
+  return total;
+}
+
+void NormalEquations::linearise_point(const BundleState& state, std::size_t point_idx, Part& part) {
+  Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero();
+  Tall with_timing = Tall::Zero();
+  for (std::size_t i = first_[point_idx]; i < first_[point_idx + 1]; ++i) {
+    const int row = sights_[i].row;
+    const Measurement measurement = retimed(*sights_[i].measurement, state.timing);
+    const Pose& pose = state.cameras[sights_[i].camera_idx];
+    const Vec3 turned = pose.rotate(state.points[point_idx]), p = turned + pose.translation;
+    const auto residual = residual_of(measurement, pinhole_, p);
+    const auto by_point_values = residual_by_point(measurement, pinhole_, p);
+    const Eigen::Map<const RowMajor3> by_point(by_point_values.data());
+    const double weight = rule_.robust ? huber_weight(squared(residual), chi_square_bound(measurement)) : 1;
+    const Eigen::Vector3d r = weight * Eigen::Map<const Eigen::Vector3d>(residual.data());
+    Eigen::Matrix3d by_position;
+    by_position.noalias() = by_point * Eigen::Map<const RowMajor3>(pose.rotation.data());
+    const Eigen::Matrix3d weighted = weight * by_position;
+    own.noalias() += weighted.transpose() * by_position;
+    slope.noalias() += by_position.transpose() * r;
+    Wide by_camera;
+    if (row >= 0) {
+      RowMajor3 cross;  // derivative of exp(w) q by w: -[q]x, q = R * point
+      cross << 0, turned.z, -turned.y, -turned.z, 0, turned.x, turned.y, -turned.x, 0;
+      by_camera.leftCols<3>().noalias() = by_point * cross;
+      by_camera.rightCols<3>() = by_point;
+      const Wide heavy = weight * by_camera;
+      mixed_[i].noalias() = by_camera.transpose() * weighted;
+      part.blocks[system_->diagonal(row)].noalias() += heavy.transpose() * by_camera;
+      part.right[row].noalias() -= by_camera.transpose() * r;
+    }
+    if (timing_row_ < 0) continue;
+    Wide by_timing = Wide::Zero();
+    by_timing(0, 0) = -measurement.pixel_weight * measurement.u_rate;
+    by_timing(1, 0) = -measurement.pixel_weight * measurement.v_rate;
+    by_timing(2, 1) = measurement.inverse_depth > 0 ? -measurement.depth_weight * measurement.depth_rate : 0;
+    const Wide heavy = weight * by_timing;
+    part.blocks[system_->diagonal(timing_row_)].noalias() += heavy.transpose() * by_timing;
+    part.right[timing_row_].noalias() -= by_timing.transpose() * r;
+    with_timing.noalias() += by_timing.transpose() * weighted;
+    if (row >= 0) part.blocks[system_->position(row, timing_row_)].noalias() += by_camera.transpose() * heavy;
+  }
+  own_[point_idx] = own;
+  slope_[point_idx] = slope;
+  if (timing_row_ >= 0) mixed_timing_[point_idx] = with_timing;
+}
+
+void NormalEquations::add_links(const BundleState& state, Part& part) const {
+  for (std::size_t i = 0; i < bundle_.links.size(); ++i) {
+    const LinkTerms terms = linked(bundle_.links[i], link_roots_[i], state.cameras, rule_.robust);
+    const int from = row_of_[bundle_.links[i].from_idx], to = row_of_[bundle_.links[i].to_idx];
+    const auto add = [&](int row, const Block& by) {
+      if (row < 0) return;
+      part.blocks[system_->diagonal(row)].noalias() += terms.weight * by.transpose() * by;
+      part.right[row].noalias() -= terms.weight * by.transpose() * terms.residual;
+    };
+    add(from, terms.by_from);
+    add(to, terms.by_to);
+    if (from < 0 || to < 0) continue;
+    const Block mixed = terms.weight * terms.by_from.transpose() * terms.by_to;
+    part.blocks[system_->position(std::min(from, to), std::max(from, to))] +=
+        from < to ? mixed : Block(mixed.transpose());
+  }
+}
+
+void NormalEquations::linearise(const BundleState& state) {
+  std::vector<Part> parts(kParts);
+  for_parts([&](std::size_t part, std::size_t begin, std::size_t end) {
+    parts[part] = empty_part();
+    for (std::size_t point = begin; point < end; ++point) linearise_point(state, point, parts[part]);
+  });
+  direct_ = sum(parts);
+  add_links(state, direct_);
+  if (timing_row_ < 0) return;
+  Block& block = direct_.blocks[system_->diagonal(timing_row_)];
+  block.diagonal().tail<4>().setOnes();  // not used
+  add_timing_prior(bundle_.timing, state.timing, block, direct_.right[timing_row_]);
+}
+
+void NormalEquations::eliminate_point(std::size_t point_idx, double damping, Part& part) const {
+  const Eigen::Matrix3d inverse = damped_inverse(own_[point_idx], damping);
+  const auto subtract = [&](int row, const Tall& mixed, std::size_t next) {
+    Tall scaled;
+    scaled.noalias() = mixed * inverse;
+    part.right[row].noalias() += scaled * slope_[point_idx];
+    for (std::size_t j = next; j < first_[point_idx + 1]; ++j) {
+      Block& block = part.blocks[system_->position(row, sights_[j].row)];
+      block.noalias() -= scaled * mixed_[j].transpose();
+      if (j > next && sights_[j].row == row) block.noalias() -= mixed_[j] * scaled.transpose();  // seen twice
+    }
+    if (timing_row_ >= 0)
+      part.blocks[system_->position(row, timing_row_)].noalias() -=
+          scaled * mixed_timing_[point_idx].transpose();
+  };
+  for (std::size_t i = first_[point_idx]; i < first_[point_idx + 1]; ++i)
+    if (sights_[i].row >= 0) subtract(sights_[i].row, mixed_[i], i);
+  if (timing_row_ >= 0) subtract(timing_row_, mixed_timing_[point_idx], first_[point_idx + 1]);
+}
+
+double NormalEquations::substitute_point(std::size_t point_idx, double damping) {
+  const Eigen::Matrix3d& own = own_[point_idx];
+  Eigen::Vector3d right = -slope_[point_idx];
+  for (std::size_t i = first_[point_idx]; i < first_[point_idx + 1]; ++i)
+    if (sights_[i].row >= 0) right.noalias() -= mixed_[i].transpose() * step_[sights_[i].row];
+  if (timing_row_ >= 0) right.noalias() -= mixed_timing_[point_idx].transpose() * step_[timing_row_];
+  const Eigen::Vector3d step = damped_inverse(own, damping) * right;
+  point_step_[point_idx] = step;
+  double gain = -step.dot(slope_[point_idx]);
+  for (int i = 0; i < 3; ++i) gain += damping * std::max(kLeastDiagonal, own(i, i)) * step[i] * step[i];
+  return 0.5 * gain;
+}
+
+bool NormalEquations::solve(double damping) {
+  std::vector<Part> parts(kParts);
+  for_parts([&](std::size_t part, std::size_t begin, std::size_t end) {
+    parts[part] = empty_part();
+    for (std::size_t point = begin; point < end; ++point) eliminate_point(point, damping, parts[part]);
+  });
+  parts.push_back(direct_);
+  Part reduced = sum(parts);
+  const auto raised = [&](int row, int i) {
+    return damping * std::max(kLeastDiagonal, direct_.blocks[system_->diagonal(row)](i, i));
+  };
+  for (int row = 0; row < system_->rows(); ++row)
+    for (int i = 0; i < 6; ++i) reduced.blocks[system_->diagonal(row)](i, i) += raised(row, i);
+  step_ = system_->solve(reduced.blocks, reduced.right);
+  if (static_cast<int>(step_.size()) != system_->rows()) return false;
+  promised_gain_ = 0;
+  for (int row = 0; row < system_->rows(); ++row)
+    for (int i = 0; i < 6; ++i)
+      promised_gain_ +=
+          0.5 * (step_[row][i] * direct_.right[row][i] + raised(row, i) * step_[row][i] * step_[row][i]);
+  std::array<double, kParts> gains{};
+  for_parts([&](std::size_t part, std::size_t begin, std::size_t end) {
+    for (std::size_t point = begin; point < end; ++point) gains[part] += substitute_point(point, damping);
+  });
+  for (const double gain : gains) promised_gain_ += gain;
+  return std::isfinite(promised_gain_);
+}
+
+BundleState NormalEquations::moved(const BundleState& state) const {
+  BundleState next = state;
+  for (std::size_t i = 0; i < next.cameras.size(); ++i) {
+    if (row_of_[i] < 0) continue;
+    const Vector6& step = step_[row_of_[i]];
+    next.cameras[i] = updated(next.cameras[i], {step[0], step[1], step[2]}, {step[3], step[4], step[5]});
+  }
+  for (std::size_t i = 0; i < next.points.size(); ++i)
+    next.points[i] = next.points[i] + Vec3{point_step_[i][0], point_step_[i][1], point_step_[i][2]};
+  if (timing_row_ >= 0)
+    for (int i = 0; i < 2; ++i) next.timing[i] += step_[timing_row_][i];
+  return next;
+}
+
+}  // namespace sediment::track
