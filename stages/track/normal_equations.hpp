@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "stages/track/block_system.hpp"
 #include "stages/track/bundle_adjustment.hpp"
 
@@ -43,8 +45,10 @@ class NormalEquations {
     const Measurement* measurement = nullptr;
   };
 
-  template <class Body>
-  void for_parts(const Body& body) const;
+  static constexpr std::size_t kParts = 4;
+  /// Is given a part's number and the range of its points.
+  using PartWork = std::function<void(std::size_t part, std::size_t begin, std::size_t end)>;
+  void for_parts(const PartWork& work) const;
   Part empty_part() const;
   Part sum(const std::vector<Part>& parts) const;
   void linearise_point(const BundleState& state, std::size_t point_idx, Part& part);
