@@ -45,7 +45,7 @@ Table size_table(const std::vector<MapSizes>& all) {
                           percents(one.reduced()),
                           megabytes(one.tree),
                           percents(one.tree / one.dense),
-                          megabytes(one.tree_binary),
+                          shown(one.tree_binary, 3, 1 / kMegabyte),
                           shown(paper ? paper->dense_mb : std::nullopt, 1),
                           shown(paper ? paper->reduced_mb : std::nullopt, 1),
                           shown(paper ? paper->ratio() : std::nullopt, 1, 100)});
