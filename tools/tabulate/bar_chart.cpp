@@ -8,7 +8,7 @@
 namespace sediment::tabulate {
 namespace {
 
-constexpr double kLeft = 58, kTop = 64, kHeight = 280, kBar = 24, kBetween = 34, kBottom = 66;
+constexpr double kLeft = 58, kTop = 64, kHeight = 280, kBar = 24, kBetween = 34, kBottom = 92;
 constexpr const char* kColors[] = {"#64707a", "#9fb0b8", "#0d6e60", "#c4701c", "#7d5ba6", "#b3261e"};
 
 std::string escaped(const std::string& text) {
