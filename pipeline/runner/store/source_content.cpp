@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <map>
-#include <sstream>
+#include <string_view>
 
 #include "pipeline/contract/description.hpp"
 #include "pipeline/contract/digest.hpp"
@@ -53,14 +54,26 @@ struct SequenceContent {
   }
 };
 
-/// The names in the second column of a list; '#' begins a comment.
+std::string text_of_file(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The names in the second column of a list, parted as the stages' reader parts it (TUM's own tools take
+/// commas and tabs for blanks); '#' begins a comment.
 std::vector<std::string> images_in(const fs::path& list) {
+  constexpr std::string_view kSeparators = " \t,\r";
   std::vector<std::string> images;
-  std::ifstream stream(list);
-  for (std::string line; std::getline(stream, line);) {
-    std::istringstream words(line);
-    std::string stamp, name;
-    if (words >> stamp >> name && stamp[0] != '#') images.push_back(name);
+  const std::string text = text_of_file(list);
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line(text.data() + at, end - at);
+    at = end + 1;
+    const std::size_t stamp = std::min(line.find_first_not_of(kSeparators), line.size());
+    const std::size_t gap = std::min(line.find_first_of(kSeparators, stamp), line.size());
+    const std::size_t name = line.find_first_not_of(kSeparators, gap);
+    if (name == line.npos || line[stamp] == '#') continue;
+    images.emplace_back(line.substr(name, line.find_first_of(kSeparators, name) - name));
   }
   return images;
 }

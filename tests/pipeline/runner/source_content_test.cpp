@@ -58,3 +58,15 @@ TEST_CASE("everything that a sequence points at is part of its id") {
   INFO(change);
   CHECK(id_of("sequence", bench / "data") != before);
 }
+
+TEST_CASE("the images of a list count however its columns are parted") {
+  const Workbench bench;
+  const auto separator = GENERATE(as<std::string>{}, " ", "\t", ",", ", ", " \t ");
+  const auto end = GENERATE(as<std::string>{}, "\n", "\r\n");
+  const std::string list =
+      "# stamp file" + end + "1.0" + separator + "rgb/1.png" + end + "2.0" + separator + "rgb/2.png";
+  bench.write("data/rgb.txt", list);
+  const std::string before = id_of("sequence", bench / "data");
+  bench.write("data/rgb/2.png", "another");
+  CHECK(id_of("sequence", bench / "data") != before);
+}
