@@ -2,10 +2,11 @@
 # Installs what Sediment is built from, on Debian 12: packages by apt, ONNX Runtime and what the page of `sediment report`
 # is made of into third_party/ (ignored by git).
 #
-# usage: scripts/setup.sh [--check] [--no-onnxruntime] [--no-web]
+# usage: scripts/setup.sh [--check] [--no-onnxruntime] [--no-web] [--benchmarks]
 #   --check           only say what is missing, install nothing: exit 0 if nothing is, else 1
 #   --no-onnxruntime  leave ONNX Runtime out; the stage `segment` then runs networks with OpenCV, about half as fast
 #   --no-web          leave out three.js, esbuild and Chromium: no `sediment report`, and no test of it
+#   --benchmarks      also what nothing but benchmarks compare with (snakemake)
 #
 # Run it as root or with sudo at hand, as often as you like: it touches nothing that is there already.
 set -euo pipefail
@@ -18,6 +19,7 @@ packages=(
   catch2 libbenchmark-dev clang-format clang-tidy shellcheck
   slurm-wlm munge  # for the test of --backend slurm, which starts a Slurm of its own
 )
+benchmark_packages=(snakemake)
 scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
 say() { echo "setup: $*"; }
@@ -81,6 +83,7 @@ for argument in "$@"; do
     --check) check=true ;;
     --no-onnxruntime) onnxruntime=false ;;
     --no-web) web=false ;;
+    --benchmarks) packages+=("${benchmark_packages[@]}") ;;
     -h | --help) sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "$0"; exit 0 ;;
     *) wrong_call "unknown argument $argument" ;;
   esac
