@@ -122,6 +122,12 @@ void add_table_flags(CLI::App& app, Arguments& arguments) {
 /// Flags that one command alone has.
 void add_own_flags(CLI::App& app, const std::string& name, Arguments& arguments) {
   if (name == "report") add_report_flags(app, arguments);
+  if (name == "completion") {
+    app.add_option("what", arguments.what, "bash; or of a pipeline: stages, settings")
+        ->required()
+        ->check(CLI::IsMember({"bash", "stages", "settings"}));
+    app.add_option("config", arguments.config, "Pipeline");
+  }
   if (name == "graph")
     app.add_option("--format", arguments.format, "text, mermaid or dot [text]")
         ->check(CLI::IsMember({"text", "mermaid", "dot"}));
@@ -177,11 +183,16 @@ std::string unknown_command(const std::string& name) {
 
 }  // namespace
 
-std::optional<Arguments> parse_arguments(int argc, char** argv) {
-  CLI::App app("Runs pipelines of stages; keeps every result that is still right", "sediment");
-  Arguments arguments;
+void declare_commands(CLI::App& app, Arguments& arguments) {
+  app.name("sediment");
   app.set_version_flag("--version", SEDIMENT_VERSION);
   for (const Command& command : commands()) add_command(app, command, arguments);
+}
+
+std::optional<Arguments> parse_arguments(int argc, char** argv) {
+  CLI::App app("Runs pipelines of stages; keeps every result that is still right");
+  Arguments arguments;
+  declare_commands(app, arguments);
   const auto is_first = [&](const Command& command) { return std::string(command.name) == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && std::none_of(commands().begin(), commands().end(), is_first))
     throw UsageError(unknown_command(argv[1]));

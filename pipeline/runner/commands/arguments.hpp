@@ -5,6 +5,10 @@
 #include <string>
 #include <vector>
 
+namespace CLI {
+class App;
+}
+
 namespace sediment::runner {
 
 struct Command;
@@ -37,7 +41,11 @@ struct Arguments {
   int in_flight = 0;              ///< tasks of Slurm at the same time, 0 = as the profile says
   bool wait = false;
   std::size_t array = 0, index = 0;  ///< of slurm-task
+  std::string what;                  ///< of completion
 };
+
+/// Declares every command with its flags: parser, help and completion read this one declaration.
+void declare_commands(CLI::App& app, Arguments& arguments);
 
 /// Answers --help and --version itself: then there is nothing left to do. Throws contract::UsageError.
 std::optional<Arguments> parse_arguments(int argc, char** argv);

@@ -15,8 +15,8 @@ std::span<const Command> commands() {
       {"cancel", "Cancel what was submitted to Slurm for a pipeline or a sweep", kConfig | kPlaces,
        cancel_jobs},
       {"graph", "Print the pipeline as text, Mermaid, DOT or JSON", kLook | kJson, show_graph},
-      {"log", "Print what a stage said when its result was made, or when it last failed", kLook | kStage,
-       show_log},
+      {"log", "Print what a stage says now, or said when its result was made or when it last failed",
+       kLook | kStage, show_log},
       {"accept",
        "Take the last result of a stage as right for what has changed since; recorded in its receipt",
        kLook | kStage, accept_stage},
@@ -34,6 +34,8 @@ std::span<const Command> commands() {
        kFolder, seal},
       {"slurm-task", "Do one task of an array job; the batch scripts of --backend slurm call it", kFolder,
        run_slurm_task},
+      {"completion", "Print what bash needs to complete calls: source <(sediment completion bash)", 0,
+       print_completion},
   };
   return kCommands;
 }

@@ -52,5 +52,6 @@ int show_table(const Arguments& arguments);
 int compare(const Arguments& arguments);
 int cancel_jobs(const Arguments& arguments);
 int run_slurm_task(const Arguments& arguments);
+int print_completion(const Arguments& arguments);
 
 }  // namespace sediment::runner

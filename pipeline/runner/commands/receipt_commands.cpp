@@ -29,11 +29,24 @@ void print_failure(const StageRecord& last) {
   fmt::print("failed: {}\n{}", last.why, std::string(std::istreambuf_iterator<char>(stream), {}));
 }
 
+/// What a stage has said that runs at this moment, under this or another runner.
+void print_so_far(const LookedAt& one, Store& store) {
+  fmt::print("{}: running ({})\n", one.label, one.task.why.text);
+  const auto attempt = store.attempts().find(one.task.key->id);
+  if (!attempt) return;
+  std::ifstream stream(*attempt / "log", std::ios::binary);
+  fmt::print("{}", std::string(std::istreambuf_iterator<char>(stream), {}));
+}
+
 }  // namespace
 
 int show_log(const Arguments& arguments) {
   const Look all = look(arguments);
   const LookedAt& one = *all.named(arguments.stage).front();
+  if (one.task.key && !one.task.hit && all.opened.store->is_locked(one.task.key->id)) {
+    print_so_far(one, *all.opened.store);
+    return contract::kDone;
+  }
   if (one.last && one.last->state == "failed") {
     print_failure(*one.last);
     return contract::kDone;

@@ -55,7 +55,7 @@ void prepare(const OpenedConfig& opened, bool durable) {
     for (const PlannedStage& stage : opened.instances.front().graph->stages)
       Workspace(opened.out).check(stage.name);
   opened.store->make(durable);
-  opened.store->remove_leftovers();
+  opened.store->attempts().tidy();
   remember_workspace(*opened.store, opened.out);
   if (!opened.points.empty()) write_points(opened.points, opened.out);
 }
@@ -72,7 +72,7 @@ int execute(const OpenedConfig& opened, const RunOptions& options, Signals& sign
   const bool all_kept =
       std::all_of(tasks.begin(), tasks.end(), [](const Task& task) { return task.outcome == Outcome::kept; });
   // Once more: a stage of a killed runner may have gone on writing for the moment that its death took.
-  store.remove_leftovers();
+  store.attempts().tidy();
   if (!all_kept) write_run(options.run, tasks, seconds);
   record(opened.instances, tasks, all_kept ? "" : options.run.string());
   if (show_table) fmt::print("{}", closing_table(tasks, seconds));

@@ -64,11 +64,11 @@ int sweep(const Arguments& arguments) {
   if (call.out.empty()) call.out = fs::path("out") / file.stem();
   const fs::path out = call.out;
   if (code != contract::kDone || !is_complete) return code;
-  const ResultTable table = make_table(results_in(out, call), {});
-  if (table.size() <= kMostRows)
-    fmt::print("\nbytes of every result\n{}", format_table(table, "markdown"));
+  if (const std::size_t rows = read_points(out).size(); rows > kMostRows)
+    fmt::print("\n`sediment table {}` shows all {} rows\n", out.string(), rows);
   else
-    fmt::print("\n`sediment table {}` shows all {} rows\n", out.string(), table.size() - 1);
+    fmt::print("\nbytes of every result\n{}",
+               format_table(make_table(results_in(out, call), {}), "markdown"));
   return code;
 }
 

@@ -39,6 +39,7 @@ struct Input {
 struct PlannedStage {
   std::string name;
   std::shared_ptr<const Program> program;
+  std::string exe;  ///< what the program is known by: the digest of its bytes, or its version
   std::vector<Input>
       inputs;  ///< in the order of the declaration; optional ones that are not given are left out
   Resources resources;

@@ -113,7 +113,18 @@ PipelineFile read_pipeline(const fs::path& file, Violations& violations) {
         .any([&](const auto& k, const auto& v) { pipeline.stages.push_back(read_stage(k, v, violations)); })
         .read(value, line_of(key));
   };
-  Mapping("pipeline", violations).key("sources", sources).key("stages", stages).read(load_yaml(file), 1);
+  const auto fingerprint = [&](const YAML::Node& key, const YAML::Node& value) {
+    std::string text;
+    text_into(text, "pipeline", violations)(key, value);
+    pipeline.by_version = text == "version";
+    if (text != "version" && text != "content")
+      violations.add(line_of(key), "fingerprint: expected content or version, found \"" + text + '"');
+  };
+  Mapping("pipeline", violations)
+      .key("fingerprint", fingerprint)
+      .key("sources", sources)
+      .key("stages", stages)
+      .read(load_yaml(file), 1);
   if (pipeline.stages.empty()) violations.add(1, "the pipeline has no stages");
   return pipeline;
 }

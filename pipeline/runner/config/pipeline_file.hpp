@@ -41,7 +41,8 @@ struct StageEntry {
 
 struct PipelineFile {
   std::filesystem::path file;
-  std::string name;  ///< of its folder if it is called pipeline.yaml, else of the file
+  std::string name;         ///< of its folder if it is called pipeline.yaml, else of the file
+  bool by_version = false;  ///< `fingerprint: version`: a program is known by its version, not by its bytes
   std::vector<SourceEntry> sources;
   std::vector<StageEntry> stages;
 };

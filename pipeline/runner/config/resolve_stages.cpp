@@ -161,9 +161,11 @@ std::vector<PlannedStage> resolve_stages(const PipelineFile& pipeline, const std
                                          Violations& violations) {
   Resolution all{pipeline, settings, sources, violations, {}};
   for (const StageEntry& entry : pipeline.stages) {
-    PlannedStage stage{entry.name, nullptr, {}, entry.resources, Json::object()};
+    PlannedStage stage{entry.name, nullptr, "", {}, entry.resources, Json::object()};
     try {
       stage.program = programs.find(entry.name);
+      stage.exe =
+          pipeline.by_version ? "version " + stage.program->description.version : stage.program->digest;
     } catch (const contract::UsageError& error) {
       violations.add(entry.line, error.what());
     }

@@ -91,7 +91,7 @@ Attempt::Attempt(Store& store, KeyLock lock, Key key, const PlannedStage& stage,
     : store_(store),
       lock_(std::move(lock)),
       key_(std::move(key)),
-      folder_(store.make_attempt(key_.id)),
+      folder_(store.attempts().take(key_.id)),
       started_(std::chrono::steady_clock::now()) {
   receipt_.argv = argv_of(stage, inputs, folder_ / "result", threads);
   receipt_.why = std::move(why);
@@ -109,8 +109,7 @@ Attempt::Attempt(Store& store, KeyLock lock, Key key, const PlannedStage& stage,
 }
 
 Attempt::~Attempt() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
+  store_.attempts().give_back(folder_);
 }
 
 double Attempt::seconds() const {

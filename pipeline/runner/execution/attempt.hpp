@@ -23,7 +23,7 @@ class Attempt {
   /// Starts the stage. The lock of the key belongs to the attempt from now on.
   Attempt(Store& store, KeyLock lock, Key key, const PlannedStage& stage,
           const std::vector<std::filesystem::path>& inputs, int threads, std::string why);
-  /// Removes the folder.
+  /// Gives the folder back: all processes of the stage must have ended.
   ~Attempt();
   Attempt(const Attempt&) = delete;
   Attempt& operator=(const Attempt&) = delete;

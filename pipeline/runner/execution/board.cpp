@@ -21,9 +21,10 @@ std::optional<std::size_t> Board::next() {
   return undecided_.extract(undecided_.begin()).value();
 }
 
-Key Board::key_of(const Task& task) const {
-  return runner::key_of(stage_of(task),
-                        *input_ids(instance_of(task), task.stage_idx, objects_[task.instance_idx]));
+Key Board::key_of(const Task& task) {
+  const PlannedStage& stage = stage_of(task);
+  return words_.try_emplace(&stage, stage)
+      .first->second.key(*input_ids(instance_of(task), task.stage_idx, objects_[task.instance_idx]));
 }
 
 std::vector<std::filesystem::path> Board::inputs_of(const Task& task) const {

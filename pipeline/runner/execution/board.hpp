@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "pipeline/runner/execution/display.hpp"
@@ -30,7 +31,7 @@ class Board {
   /// Puts a task back among those to decide.
   void reconsider(std::size_t idx) { undecided_.insert(idx); }
 
-  Key key_of(const Task& task) const;
+  Key key_of(const Task& task);
   std::vector<std::filesystem::path> inputs_of(const Task& task) const;
   /// Why a task with that key has to run.
   std::string reason(const Task& task, const Key& key);
@@ -57,6 +58,7 @@ class Board {
   std::vector<std::vector<std::string>> objects_;  ///< of each stage of each instance, as far as known
   std::map<std::size_t, std::map<std::string, StageRecord>> records_;  ///< by instance, read on demand
   std::set<std::size_t> undecided_;
+  std::unordered_map<const PlannedStage*, KeyWords> words_;
 };
 
 }  // namespace sediment::runner

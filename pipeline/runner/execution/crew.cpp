@@ -17,6 +17,7 @@ std::optional<Crew::Ended> Crew::take_ended() {
     if (!ending) continue;
     Ended ended{std::move(*member), *ending};
     members_.erase(member);
+    end_orphans(ended.member.attempt->log().parent_path());
     free_.give_back(ended.member.taken);
     return ended;
   }

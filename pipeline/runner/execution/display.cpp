@@ -17,10 +17,25 @@ using std::chrono::steady_clock;
 /// How often a pipe hears from stages that run long.
 constexpr auto kReport = 10s;
 constexpr std::size_t kLogLines = 20;
+/// More stages than this are counted only.
+constexpr std::size_t kLiveLines = 8;
 
 int terminal_width() {
   winsize size{};
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80;
+}
+
+/// The first columns of a text in UTF-8, without control characters.
+std::string shortened(const std::string& text, std::size_t width) {
+  std::string line;
+  std::size_t columns = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool continues = (byte & 0xC0) == 0x80;
+    if (!continues && columns++ == width) break;
+    line += byte < 32 || byte == 127 ? ' ' : c;
+  }
+  return line;
 }
 
 /// The last lines of a log, indented.
@@ -43,8 +58,9 @@ void Display::begin(std::size_t tasks) {
 }
 
 void Display::clear() {
-  if (drawn_) std::fputs("\r\033[K", stderr);
-  drawn_ = false;
+  if (drawn_ > 1) std::fprintf(stderr, "\033[%zuA", drawn_ - 1);
+  if (drawn_ > 0) std::fputs("\r\033[J", stderr);
+  drawn_ = 0;
 }
 
 void Display::say(const std::string& line) {
@@ -54,7 +70,7 @@ void Display::say(const std::string& line) {
 
 void Display::started(const Task& task, const Attempt& attempt, double expected_s) {
   running_.push_back({&task.label, &attempt, expected_s});
-  say(fmt::format("{}: runs ({})", task.label, task.why));
+  if (!terminal_) say(fmt::format("{}: runs ({})", task.label, task.why));
 }
 
 void Display::stopped(const Task& task) {
@@ -86,30 +102,42 @@ void Display::ended(const Task& task) {
   }
 }
 
-std::string Display::live_line() const {
-  std::string line = fmt::format("[{}/{}]", ended_, tasks_);
+std::string Display::Running::text() const {
+  std::string line = fmt::format("{}  {:.1f} s", *label, attempt->seconds());
+  if (expected_s >= 1) line += fmt::format(" of about {:.0f} s", expected_s);
+  const std::string said = attempt->last_words();
+  return said.empty() ? line : line + "  " + said;
+}
+
+/// A line per stage that runs; none may wrap, or the next could not be drawn over it.
+std::vector<std::string> Display::live_lines() const {
+  const std::string count = fmt::format("[{}/{}] ", ended_, tasks_);
+  std::vector<std::string> lines;
   for (const Running& one : running_) {
-    line += fmt::format("  {} {:.1f} s", *one.label, one.attempt->seconds());
-    if (one.expected_s >= 1) line += fmt::format(" of about {:.0f} s", one.expected_s);
-    const std::string said = one.attempt->last_words();
-    if (!said.empty()) line += " (" + said + ')';
+    if (lines.size() == kLiveLines) {
+      lines.push_back(fmt::format("{:{}}and {} more", "", count.size(), running_.size() - kLiveLines));
+      break;
+    }
+    lines.push_back((lines.empty() ? count : std::string(count.size(), ' ')) + one.text());
   }
-  return line.substr(0, static_cast<std::size_t>(terminal_width() - 1));
+  return lines;
+}
+
+void Display::draw() {
+  clear();
+  const auto width = static_cast<std::size_t>(terminal_width() - 1);
+  for (const std::string& line : live_lines())
+    std::fprintf(stderr, "%s%s", drawn_++ == 0 ? "" : "\n", shortened(line, width).c_str());
+  std::fflush(stderr);
 }
 
 void Display::tick() {
   if (running_.empty()) return;
-  if (terminal_) {
-    clear();
-    std::fputs(live_line().c_str(), stderr);
-    std::fflush(stderr);
-    drawn_ = true;
-    return;
-  }
+  if (terminal_) return draw();
   const auto now = steady_clock::now();
   if (now - shown_ < kReport) return;
   shown_ = now;
-  say(live_line());
+  for (const std::string& line : live_lines()) say(line);
 }
 
 void Display::end() {

@@ -4,13 +4,15 @@
 #include <list>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "pipeline/runner/execution/attempt.hpp"
 #include "pipeline/runner/execution/task.hpp"
 
 namespace sediment::runner {
 
-/// What a run says while it works, on stderr: one live line on a terminal, plain lines in a pipe.
+/// What a run says while it works, on stderr: on a terminal a live line per stage
+/// that runs, plain lines in a pipe.
 class Display {
  public:
   Display();
@@ -30,14 +32,16 @@ class Display {
     const std::string* label;
     const Attempt* attempt;
     double expected_s;
+    std::string text() const;
   };
 
   void say(const std::string& line);
   void clear();
-  std::string live_line() const;
+  void draw();
+  std::vector<std::string> live_lines() const;
 
   bool terminal_;
-  bool drawn_ = false;
+  std::size_t drawn_ = 0;  ///< lines on the terminal that the next drawing replaces
   std::size_t tasks_ = 0, ended_ = 0;
   std::list<Running> running_;
   std::set<std::string> told_;  ///< labels that wait and were reported

@@ -12,6 +12,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 namespace sediment::runner {
@@ -102,6 +104,27 @@ std::optional<Ending> reap(pid_t pid) {
   ending.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   ending.peak_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
   return ending;
+}
+
+void adopt_orphans() {
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+}
+
+void end_orphans(const std::filesystem::path& home) {
+  const std::string mark = "HOME=" + home.string() + '\0';
+  // A dead orphan's own children become ours in turn: until there is none.
+  for (bool found = true; found;) {
+    found = false;
+    std::ifstream children("/proc/self/task/" + std::to_string(gettid()) + "/children");
+    for (pid_t child = 0; children >> child;) {
+      std::ifstream stream("/proc/" + std::to_string(child) + "/environ", std::ios::binary);
+      const std::string environment(std::istreambuf_iterator<char>(stream), {});
+      if (environment.find(mark) == environment.npos) continue;
+      kill(child, SIGKILL);
+      waitpid(child, nullptr, 0);
+      found = true;
+    }
+  }
 }
 
 void signal_group(pid_t pid, int signal) {

@@ -38,6 +38,13 @@ pid_t start(const Launch& launch);
 /// killed.
 std::optional<Ending> reap(pid_t pid);
 
+/// From now on a process whose parent ended becomes our child, even if it has left its group.
+void adopt_orphans();
+
+/// Kills every adopted process that has this home in its environment (fixed_environment): what a stage that
+/// ended has left behind outside its group.
+void end_orphans(const std::filesystem::path& home);
+
 /// Signals the whole process group.
 void signal_group(pid_t pid, int signal);
 

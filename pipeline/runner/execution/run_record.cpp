@@ -1,7 +1,10 @@
 #include "pipeline/runner/execution/run_record.hpp"
 
+#include <fmt/chrono.h>
+
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 
 #include "pipeline/contract/digest.hpp"
@@ -21,6 +24,14 @@ void write(const fs::path& file, const OrderedJson& json) {
   stream << json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) << '\n';
   stream.close();
   if (!stream) throw std::runtime_error("cannot write " + file.string() + ": " + std::strerror(errno));
+}
+
+/// The words of the call of this program.
+OrderedJson own_call() {
+  std::ifstream stream("/proc/self/cmdline", std::ios::binary);
+  OrderedJson words = OrderedJson::array();
+  for (std::string word; std::getline(stream, word, '\0');) words.push_back(word);
+  return words;
 }
 
 OrderedJson event_of(const Task& task) {
@@ -71,6 +82,8 @@ void update(StageRecord& record, const Task& task) {
 
 void write_run(const fs::path& folder, const std::vector<Task>& tasks, double seconds) {
   OrderedJson log = {{"format", kRunLogFormat},
+                     {"call", own_call()},
+                     {"ended", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
                      {"host", host_name()},
                      {"seconds", seconds},
                      {"kept", 0},

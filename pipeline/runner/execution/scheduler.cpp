@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "pipeline/contract/errors.hpp"
@@ -35,6 +36,7 @@ Scheduler::Scheduler(const std::vector<Instance>& instances, Store& store, RunOp
       crew_(options_.jobs, options_.capacity) {}
 
 std::vector<Task> Scheduler::run() {
+  adopt_orphans();
   while (true) {
     while (const auto task = board_.next()) decide(*task);
     launch_ready();
@@ -72,17 +74,19 @@ void Scheduler::decide(std::size_t task_idx) {
 /// Starts what can start. What finds no room or is locked by another runner stays, in its order.
 void Scheduler::launch_ready() {
   locked_out_ = false;
-  if (stopping_) return;
-  std::deque<Waiting> staying;
-  while (!ready_.empty() && !crew_.is_full() && !stopping_) {
-    Waiting waiting = std::move(ready_.front());
-    ready_.pop_front();
-    const Launch launched = launch(waiting);
+  // Where one instance of a stage finds no room, none does: thousands may wait.
+  std::set<std::pair<const PlannedStage*, int>> without_room;
+  for (std::size_t i = 0; i < ready_.size() && !crew_.is_full() && !stopping_;) {
+    const Task& task = board_.task(ready_[i].task);
+    const std::pair kind(&board_.stage_of(task), task.retries);
+    const Launch launched = without_room.contains(kind) ? Launch::no_room : launch(ready_[i]);
+    if (launched == Launch::no_room) without_room.insert(kind);
     locked_out_ |= launched == Launch::locked;
-    if (launched != Launch::done) staying.push_back(std::move(waiting));
+    if (launched == Launch::done)
+      ready_.erase(ready_.begin() + static_cast<std::ptrdiff_t>(i));
+    else
+      ++i;
   }
-  ready_.insert(ready_.begin(), std::make_move_iterator(staying.begin()),
-                std::make_move_iterator(staying.end()));
 }
 
 Scheduler::Launch Scheduler::launch(Waiting& waiting) {

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "pipeline/contract/errors.hpp"
+#include "pipeline/runner/store/store_layout.hpp"
 
 namespace sediment::runner {
 namespace {
@@ -19,6 +20,20 @@ using contract::Json;
 constexpr const char* kRunFormat = "sediment-run 1";
 /// Stands within the first bytes of run.json.
 constexpr std::string_view kIdKey = "\"id\": \"";
+
+/// The target of a link in `folder`: relative if the folder lies beside the store or below that place (the
+/// store of a sweep lies in the folder above that of the instance). Plain text: this runs for every instance
+/// of every run.
+std::string target_from(const std::string& folder, const std::string& object, const Store& store) {
+  const std::string& root = store.root().native();
+  const std::string above = root.substr(0, root.rfind('/') + 1);
+  const std::string from = folder + '/';
+  if (!from.starts_with(above)) return object;
+  std::string target;
+  for (std::size_t at = from.find('/', above.size()); at != from.npos; at = from.find('/', at + 1))
+    target += "../";
+  return target + object.substr(above.size());
+}
 
 std::string target_of(const fs::path& link) {
   char target[4096];
@@ -37,11 +52,8 @@ void Workspace::check(const std::string& stage) const {
 
 void Workspace::link(const std::string& stage, const std::string& object, const Store& store) const {
   const fs::path place = folder_ / stage;
-  const fs::path absolute = store.object_path(object);
-  // The store of a sweep lies in the folder above that of the instance.
-  const fs::path above = store.root().parent_path();
-  const bool together = (folder_.native() + '/').starts_with(above.native() + '/');
-  const std::string target = (together ? absolute.lexically_relative(folder_) : absolute).native();
+  const std::string target =
+      target_from(folder_.native(), store.root().native() + "/objects/" + object_name(object), store);
   if (target_of(place) == target) return;
   check(stage);
   fs::create_directories(folder_);

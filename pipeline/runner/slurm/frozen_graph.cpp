@@ -33,6 +33,7 @@ Json to_json(const Graph& graph) {
     for (const Input& input : stage.inputs)
       inputs.push_back({{"role", input.role}, {"source", input.source_idx}, {"stage", input.stage_idx}});
     stages.push_back({{"name", stage.name},
+                      {"exe", stage.exe},
                       {"inputs", inputs},
                       {"amounts", stage.resources.amounts},
                       {"params", stage.params}});
@@ -49,6 +50,7 @@ Graph graph_from(const Json& json, const FrozenPrograms& programs) {
     PlannedStage stage;
     stage.name = one.at("name");
     stage.program = programs.at(stage.name);
+    stage.exe = one.at("exe");
     for (const Json& input : one.at("inputs"))
       stage.inputs.push_back({input.at("role"), input.at("source"), input.at("stage")});
     stage.resources.amounts = one.at("amounts").get<Amounts>();

@@ -36,18 +36,30 @@ void compare_named(const std::string& group, const Json& before, const Json& aft
 
 }  // namespace
 
-Key key_of(const PlannedStage& stage, const std::vector<std::string>& input_ids) {
+KeyWords::KeyWords(const PlannedStage& stage) {
   const contract::Description& description = stage.program->description;
-  Json params = Json::object(), inputs = Json::array(), outputs = Json::array();
+  Json params = Json::object(), outputs = Json::array();
   for (const contract::Parameter& parameter : description.parameters)
     if (parameter.affects_result) params[parameter.name] = stage.params.at(parameter.name);
-  for (std::size_t i = 0; i < input_ids.size(); ++i) inputs.push_back({stage.inputs[i].role, input_ids[i]});
   for (const contract::Port& port : description.writes) outputs.push_back({port.role, port.kind});
-  const Json parts = {{"format", kKeyFormat}, {"stage", stage.name}, {"exe", stage.program->digest},
-                      {"params", params},     {"inputs", inputs},    {"outputs", outputs}};
-  Key key{parts.dump(), ""};
+  before_ = "{\"exe\":" + Json(stage.exe).dump() + ",\"format\":" + Json(kKeyFormat).dump() + ",\"inputs\":[";
+  for (const Input& input : stage.inputs)
+    roles_.push_back((roles_.empty() ? "[" : ",[") + Json(input.role).dump() + ",\"");
+  after_ = "],\"outputs\":" + outputs.dump() + ",\"params\":" + params.dump() +
+           ",\"stage\":" + Json(stage.name).dump() + '}';
+}
+
+Key KeyWords::key(const std::vector<std::string>& input_ids) const {
+  Key key{before_, ""};
+  for (std::size_t i = 0; i < input_ids.size(); ++i)
+    key.text.append(roles_[i]).append(input_ids[i]).append("\"]");
+  key.text += after_;
   key.id = contract::digest_bytes(key.text);
   return key;
+}
+
+Key key_of(const PlannedStage& stage, const std::vector<std::string>& input_ids) {
+  return KeyWords(stage).key(input_ids);
 }
 
 std::vector<Difference> differences(const Json& before, const Json& after) {

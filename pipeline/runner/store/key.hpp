@@ -14,6 +14,19 @@ struct Key {
   std::string id;    ///< "x3:..." of the text
 };
 
+/// The key of a stage with the content ids of its inputs left open: what thousands of instances share is put
+/// into words once.
+class KeyWords {
+ public:
+  explicit KeyWords(const PlannedStage& stage);
+  /// `input_ids`: one for each of the stage's inputs, in their order.
+  Key key(const std::vector<std::string>& input_ids) const;
+
+ private:
+  std::string before_, after_;
+  std::vector<std::string> roles_;
+};
+
 /// The key of a stage, given the content id of each of its inputs in their order.
 Key key_of(const PlannedStage& stage, const std::vector<std::string>& input_ids);
 

@@ -71,6 +71,13 @@ void remove_unreferenced(const Store& store, const std::set<std::string>& refere
   }
 }
 
+/// Folders and files that were last written before that time.
+void remove_older(const fs::path& folder, fs::file_time_type time) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (entry.last_write_time(ignored) < time) fs::remove_all(entry.path(), ignored);
+}
+
 }  // namespace
 
 std::vector<Pruned> prune(Store& store, const PruningRules& rules) {
@@ -101,6 +108,9 @@ std::vector<Pruned> prune(Store& store, const PruningRules& rules) {
     store.memory().forget(StatMemory::Use::receipt, key);
   }
   if (rules.dry_run) return pruned;
+  if (rules.older_than_s)
+    for (const char* part : {"runs", "quarantine"})
+      remove_older(store.root() / part, now - std::chrono::seconds(*rules.older_than_s));
   std::set<std::string> referenced;
   for (const auto& [object, count] : users)
     if (count > 0) referenced.insert(object);

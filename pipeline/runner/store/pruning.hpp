@@ -24,7 +24,8 @@ struct Pruned {
 };
 
 /// Removes results that the rules name, oldest first; never what is pinned, linked from the folder of a run,
-/// or being made at this moment. Returns what was (or would be) removed.
+/// or being made at this moment. Records of runs and what was put aside as damaged go by their age alone.
+/// Returns what was (or would be) removed.
 std::vector<Pruned> prune(Store& store, const PruningRules& rules);
 
 /// Keeps a result from being pruned, or no longer.

@@ -1,5 +1,6 @@
 #include "pipeline/runner/store/store.hpp"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -54,10 +55,25 @@ bool rename_into(const fs::path& from, const fs::path& to, bool durable) {
 
 }  // namespace
 
-Store::Store(const fs::path& root) : root_(checked_store(root)), memory_(index_file(root_)) {}
+std::optional<OpenFolder> OpenFolder::open(const fs::path& folder) {
+  OpenFolder opened(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  if (opened.descriptor < 0) return std::nullopt;
+  return opened;
+}
+
+OpenFolder::~OpenFolder() {
+  if (descriptor >= 0) close(descriptor);
+}
+
+Store::Store(const fs::path& root)
+    : root_(checked_store(root)),
+      memory_(index_file(root_)),
+      attempts_(root_),
+      folder_(OpenFolder::open(root_)) {}
 
 void Store::make(bool durable) {
   make_store(root_);
+  if (!folder_) folder_ = OpenFolder::open(root_);
   durable_ = durable;
 }
 
@@ -68,15 +84,20 @@ fs::path Store::receipt_path(const std::string& key) const {
   return root_ / "receipts" / (object_name(key) + ".json");
 }
 
+std::optional<FileStat> Store::stat_in(const std::string& name) const {
+  struct stat raw {};
+  if (folder_ && fstatat(folder_->descriptor, name.c_str(), &raw, 0) == 0) return file_stat(raw);
+  return std::nullopt;
+}
+
 std::optional<Hit> Store::find(const std::string& key) {
-  const fs::path path = receipt_path(key);
-  const auto stat = stat_of(path);
+  const auto stat = stat_in("receipts/" + object_name(key) + ".json");
   if (!stat) return std::nullopt;
   std::string summary(memory_.recall(StatMemory::Use::receipt, key, *stat).value_or(""));
   if (summary.empty()) {
     const auto read = receipt(key);
     if (!read) {
-      put_aside(path);
+      put_aside(receipt_path(key));
       return std::nullopt;
     }
     summary = summary_of(*read);
@@ -91,15 +112,14 @@ std::optional<Hit> Store::find(const std::string& key) {
 
 bool Store::is_whole(const std::string& summary) const {
   std::string_view rest = summary;
-  const fs::path object = object_path(std::string(next_line(rest)));
+  const std::string id(next_line(rest)), object = "objects/" + object_name(id) + '/';
   next_line(rest);
   while (!rest.empty()) {
     const std::string_view line = next_line(rest);
     const std::size_t space = line.find(' ');
-    struct stat raw {};
-    const std::string file = object.native() + '/' + std::string(line.substr(space + 1));
-    if (stat(file.c_str(), &raw) == 0 && static_cast<std::uint64_t>(raw.st_size) == number_of(line)) continue;
-    if (fs::exists(object)) put_aside(object);
+    const auto stat = stat_in(object + std::string(line.substr(space + 1)));
+    if (stat && stat->bytes == number_of(line)) continue;
+    if (fs::exists(object_path(id))) put_aside(object_path(id));
     return false;
   }
   return true;
@@ -137,36 +157,11 @@ void Store::put_aside(const fs::path& path) const {
 }
 
 std::optional<KeyLock> Store::try_lock(const std::string& key) const {
-  return KeyLock::try_acquire(root_ / "locks" / bare(key));
+  return KeyLock::try_acquire(lock_file(root_), key);
 }
 
 bool Store::is_locked(const std::string& key) const {
-  const fs::path file = root_ / "locks" / bare(key);
-  return fs::exists(file) && !KeyLock::try_acquire(file);
-}
-
-fs::path Store::make_attempt(const std::string& key) const {
-  static int count = 0;
-  const fs::path folder =
-      root_ / "attempts" / (bare(key) + '.' + std::to_string(getpid()) + '.' + std::to_string(count++));
-  fs::remove_all(folder);
-  fs::create_directory(folder);
-  return folder;
-}
-
-void Store::remove_leftovers() const try {
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(root_ / "attempts", ignored)) {
-    const std::string name = entry.path().filename();
-    const auto lock = KeyLock::try_acquire(root_ / "locks" / name.substr(0, name.find('.')));
-    if (lock) fs::remove_all(entry.path(), ignored);
-  }
-  // A runner that died between taking a lock and making its attempt leaves the file of the lock alone.
-  // Letting go of a lock removes its file.
-  for (const auto& entry : fs::directory_iterator(root_ / "locks", ignored))
-    KeyLock::try_acquire(entry.path());
-} catch (const std::runtime_error&) {
-  // A store that cannot be written keeps its leftovers; what has to be written will say so.
+  return KeyLock::is_held(lock_file(root_), key);
 }
 
 void Store::publish_object(const fs::path& folder, const contract::Manifest& manifest) const {
@@ -189,7 +184,7 @@ void Store::publish_object(const fs::path& folder, const contract::Manifest& man
 
 void Store::publish_receipt(const Receipt& receipt) {
   const fs::path place = receipt_path(receipt.key);
-  const fs::path fresh = root_ / "attempts" / (bare(receipt.key) + ".receipt." + std::to_string(getpid()));
+  const fs::path fresh = attempts_.draft_of_receipt();
   std::ofstream stream(fresh, std::ios::binary);
   stream << text_of(receipt);
   stream.close();

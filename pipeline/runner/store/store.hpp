@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipeline/contract/manifest.hpp"
+#include "pipeline/runner/store/attempt_folders.hpp"
 #include "pipeline/runner/store/key_lock.hpp"
 #include "pipeline/runner/store/receipt.hpp"
 #include "pipeline/runner/store/stat_memory.hpp"
@@ -16,6 +18,22 @@ namespace sediment::runner {
 struct Hit {
   std::string object;
   std::uint64_t bytes = 0;
+};
+
+/// A folder by which files are looked up: a run with nothing to do spends half its time in walking down long
+/// paths.
+struct OpenFolder {
+  int descriptor;
+
+  /// Nothing if there is no such folder.
+  static std::optional<OpenFolder> open(const std::filesystem::path& folder);
+  explicit OpenFolder(int opened) : descriptor(opened) {}
+  OpenFolder(OpenFolder&& other) noexcept : descriptor(std::exchange(other.descriptor, -1)) {}
+  OpenFolder& operator=(OpenFolder&& other) noexcept {
+    std::swap(descriptor, other.descriptor);
+    return *this;
+  }
+  ~OpenFolder();
 };
 
 /// The folder of all results (pipeline/runner/README.md has its layout). Any number of runners may work on it
@@ -31,6 +49,7 @@ class Store {
 
   const std::filesystem::path& root() const { return root_; }
   StatMemory& memory() { return memory_; }
+  AttemptFolders& attempts() { return attempts_; }
 
   /// The result of a key, or nothing. A receipt or a result that is damaged is put aside and counts as
   /// absent.
@@ -44,9 +63,6 @@ class Store {
 
   std::optional<KeyLock> try_lock(const std::string& key) const;
   bool is_locked(const std::string& key) const;
-  /// A new private folder for an attempt at a key. Its lock must be held: what earlier attempts left is
-  /// removed.
-  std::filesystem::path make_attempt(const std::string& key) const;
   /// Seals a result folder (read-only files) and moves it in. If the content is there already, that one
   /// stays.
   void publish_object(const std::filesystem::path& folder, const contract::Manifest& manifest) const;
@@ -57,14 +73,15 @@ class Store {
   std::filesystem::path receipt_path(const std::string& key) const;
   /// Moves something damaged to quarantine/.
   void put_aside(const std::filesystem::path& path) const;
-  /// Removes the attempts and locks that runners which died have left.
-  void remove_leftovers() const;
 
  private:
+  std::optional<FileStat> stat_in(const std::string& name) const;
   bool is_whole(const std::string& summary) const;
 
   std::filesystem::path root_;
   StatMemory memory_;
+  AttemptFolders attempts_;
+  std::optional<OpenFolder> folder_;  ///< root_, once it is there
   bool durable_ = false;
 };
 

@@ -45,6 +45,10 @@ void make_store(const fs::path& root) {
   if (!fs::exists(root / "VERSION")) write_version(root / "VERSION");
 }
 
+fs::path lock_file(const fs::path& root) {
+  return root / "locks" / "keys";
+}
+
 fs::path index_file(const fs::path& root) {
   return root / "index" / (host_name() + ".stat");
 }

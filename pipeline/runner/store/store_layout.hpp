@@ -13,6 +13,9 @@ std::filesystem::path checked_store(const std::filesystem::path& root);
 /// Makes the folders of a store.
 void make_store(const std::filesystem::path& root);
 
+/// The file of all locks.
+std::filesystem::path lock_file(const std::filesystem::path& root);
+
 /// The stat memory of this host.
 std::filesystem::path index_file(const std::filesystem::path& root);
 

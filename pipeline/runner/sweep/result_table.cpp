@@ -64,7 +64,7 @@ double aggregated(const std::vector<double>& numbers, const std::string& how, co
   if (how.empty() && *least != *most)
     throw UsageError(
         what +
-        ": several different values fall into one cell: name more axes in --rows or --columns, or "
+        ": several different values fall into one cell: name more axes in --row or --columns, or "
         "--aggregate mean, sum, min or max");
   return *least;
 }

@@ -29,7 +29,7 @@ struct Parameters {
   Manner manner = Manner::plain;
   std::vector<std::string> words;
   std::string fault;  ///< fail, crash, hang, deaf (to SIGTERM), twice, lie (a manifest that does not match),
-                      ///< link, orphan
+                      ///< link, orphan, daemon
   double sleep_s = 0;
   int padding_mb = 0;  ///< size of one more file, written piece by piece over sleep_s
   std::string diary;   ///< file that gets a line per start
@@ -73,8 +73,12 @@ void misbehave(const std::string& fault, const fs::path& out, const fs::path& di
     if (starts < 3) throw std::runtime_error("not yet");
   }
   // A grandchild that outlives us and goes on writing into our result.
-  if (fault == "orphan" && fork() == 0) {
+  const pid_t stage = getpid();
+  if ((fault == "orphan" || fault == "daemon") && fork() == 0) {
+    if (fault == "daemon") setsid();
     std::ofstream late(out / "text.txt", std::ios::app);
+    while (getppid() == stage) usleep(1000);
+    usleep(500'000);
     for (int i = 0; i < 100; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
       late << "late\n" << std::flush;

@@ -53,9 +53,10 @@ TEST_CASE("a stage dies with its runner, and the next run needs no hand work") {
 
 TEST_CASE("what a stage leaves running cannot touch its result") {
   const Workbench bench;
-  REQUIRE(bench.run("--set smooth.fault=orphan").code == 0);
+  const auto fault = GENERATE(as<std::string>{}, "orphan", "daemon");
+  REQUIRE(bench.run("--set smooth.fault=" + fault).code == 0);
   CHECK_FALSE(runs_anywhere(bench));
-  bench.shell("sleep 0.2");
+  bench.shell("sleep 1");
   CHECK_THAT(bench.read("out/smooth/text.txt"), !Contains("late"));
 }
 
@@ -75,5 +76,35 @@ TEST_CASE("two and four runners on one store go on, and each result is made once
     CHECK(bench.read("out0/chart/manifest.json") ==
           bench.read("out" + std::to_string(i) + "/chart/manifest.json"));
   CHECK(fs::is_empty(bench / "store/attempts"));
-  CHECK(fs::is_empty(bench / "store/locks"));
+}
+
+TEST_CASE(
+    "four runners on one sweep share its work: each key is made once, and every runner has every result") {
+  const Workbench bench;
+  bench.write("all.yaml",
+              "pipeline: pipeline.yaml\nover: [{smooth.neighbors: [10, 20, 30, 40]}, {thin.factor: [0.1, "
+              "0.2, 0.3]}]\n");
+  std::string command, waits;
+  for (const char* out : {"out0", "out1", "out2", "out3"}) {
+    command +=
+        std::string("SEQUENCE=data '" SEDIMENT_BINARY_DIR "/sediment' sweep all.yaml --stages stages ") +
+        "--store store -j2 --set scan.sleep_s=0.1 --set smooth.sleep_s=0.1 " + bench.noted() + "--out " +
+        out + " >" + out + ".log 2>&1 & p" + out + "=$!; ";
+    waits += std::string("wait $p") + out + " || exit 1; ";
+  }
+  REQUIRE(bench.shell(command + waits).code == 0);
+  const std::string started = bench.started() + ' ';
+  const auto count = [&](const std::string& stage) {
+    std::size_t found = 0;
+    for (std::size_t at = started.find(stage); at != started.npos; at = started.find(stage, at + 1)) ++found;
+    return found;
+  };
+  CHECK(count("scan ") == 1);
+  CHECK(count("smooth ") == 4);
+  CHECK(count("thin ") == 12);
+  CHECK(count("chart ") == 12);
+  for (const char* out : {"out1", "out2", "out3"})
+    CHECK(bench.shell(std::string("diff -r --exclude=run.json out0 ") + out).code == 0);
+  CHECK(bench.sediment("verify --store store").code == 0);
+  CHECK(fs::is_empty(bench / "store/attempts"));
 }

@@ -32,12 +32,12 @@ TEST_CASE("accept takes the last result for right after a change, and says so in
       "cp --remove-destination $(readlink -f stages/smooth) stages/smooth && printf x >>stages/smooth");
   CHECK_THAT(bench.call("accept", "thin" + bench.noted()).err,
              Contains("behind smooth: accept or run that first"));
-  const auto accepted = bench.call("accept", "smooth" + bench.noted());
+  const auto accepted = bench.call("accept", "smooth " + bench.noted());
   CHECK(accepted.code == 0);
   CHECK_THAT(accepted.out, Contains("exe: x3:"));
   CHECK_THAT(bench.run(bench.noted()).out, Contains("4 kept"));
   CHECK(bench.started().empty());
-  CHECK_THAT(bench.call("log", "smooth" + bench.noted()).out, Contains("accepted: {\"by\""));
+  CHECK_THAT(bench.call("log", "smooth " + bench.noted()).out, Contains("accepted: {\"by\""));
   CHECK(bench.sediment("verify --out out").code == 0);
 }
 
@@ -110,4 +110,20 @@ TEST_CASE("plan, why, status and graph answer in JSON") {
   CHECK(Json::parse(bench.call("status", "--json").out)[0]["state"] == "up to date");
   CHECK(Json::parse(bench.call("graph", "--json").out)["stages"][3]["reads"] ==
         Json({{"cloud", "thin"}, {"second", "smooth"}}));
+}
+
+TEST_CASE("with fingerprint: version a program that was only linked again keeps its results") {
+  const Workbench bench;
+  bench.write("pipeline.yaml", std::string("fingerprint: version\n") + sediment::test::kPipeline);
+  REQUIRE(bench.run(bench.noted()).code == 0);
+  bench.started();
+  bench.shell(
+      "cp --remove-destination $(readlink -f stages/smooth) stages/smooth && printf x >>stages/smooth");
+  CHECK_THAT(bench.run(bench.noted()).out, Contains("4 kept"));
+  CHECK(bench.started().empty());
+  bench.write("pipeline.yaml", sediment::test::kPipeline);
+  CHECK_THAT(bench.call("why", "scan " + bench.noted()).out, Contains("exe: version "));
+  bench.write("pipeline.yaml", std::string("fingerprint: name\n") + sediment::test::kPipeline);
+  CHECK_THAT(bench.run().err,
+             Contains("pipeline.yaml:1: fingerprint: expected content or version, found \"name\""));
 }

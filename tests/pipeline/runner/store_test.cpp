@@ -103,12 +103,15 @@ TEST_CASE("a store of another version and a folder that is no store are refused 
 TEST_CASE("a lock is exclusive and is free again when its owner lets go") {
   const sediment::test::TemporaryFolder folder;
   {
-    const auto first = KeyLock::try_acquire(folder / "lock");
+    const auto first = KeyLock::try_acquire(folder / "lock", "a");
     REQUIRE(first);
-    CHECK_FALSE(KeyLock::try_acquire(folder / "lock"));
+    CHECK_FALSE(KeyLock::try_acquire(folder / "lock", "a"));
+    CHECK(KeyLock::is_held(folder / "lock", "a"));
+    CHECK_FALSE(KeyLock::is_held(folder / "lock", "b"));
+    CHECK(KeyLock::try_acquire(folder / "lock", "b"));
   }
-  CHECK_FALSE(fs::exists(folder / "lock"));
-  CHECK(KeyLock::try_acquire(folder / "lock"));
+  CHECK_FALSE(KeyLock::is_held(folder / "lock", "a"));
+  CHECK(KeyLock::try_acquire(folder / "lock", "a"));
 }
 
 TEST_CASE("a receipt survives writing and reading, and no bit of it may change") {
