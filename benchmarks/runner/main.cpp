@@ -50,12 +50,12 @@ std::map<std::string, Measured> measure(const Tree& tree, const std::vector<std:
     return 1000 * timed.seconds;
   };
   for (const std::string& runner : runners) {
-    for (int i = 0; i < colds; ++i) {
+    for (int i = 0; i < (runner == "snakemake" ? 1 : colds); ++i) {
       remove_results(tree);
       cold[runner].push_back(call(runner) / tasks);
     }
     call(runner);  // what was written a moment ago has settled
-    for (int i = 0; i < (runner == "snakemake" ? 3 : kNoOps); ++i) no_op[runner].push_back(call(runner));
+    for (int i = 0; i < (runner == "snakemake" ? 2 : kNoOps); ++i) no_op[runner].push_back(call(runner));
     measured[runner].cold_ms_per_task = median(cold[runner]);
     measured[runner].no_op_ms = median(no_op[runner]);
   }
