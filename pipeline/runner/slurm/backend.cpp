@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <map>
 
 #include "pipeline/contract/errors.hpp"
@@ -85,6 +86,7 @@ bool Backend::submit_missing() {
     submit_open(now, open);
   else
     fmt::print("nothing to submit: {}\n", summary(now.progress));
+  std::fflush(stdout);
   return false;
 }
 
@@ -105,7 +107,6 @@ void Backend::submit_open(const Look& now, const std::vector<bool>& open) const 
   fmt::print("submitted {} stages in {} tasks of {} array jobs; {} are there, {} were in flight\n", works,
              tasks, jobs, count([](const Progress& one) { return one.is_there(); }),
              count([](const Progress& one) { return one.in_flight(); }));
-  std::fflush(stdout);
 }
 
 /// Whether there is anything left to wait for.

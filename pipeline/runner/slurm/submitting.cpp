@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <ctime>
 #include <set>
+#include <stdexcept>
 
 #include "pipeline/runner/slurm/batch_script.hpp"
 
@@ -93,7 +94,12 @@ std::vector<SubmittedLayer> submit(const std::vector<Work>& works, const std::ve
                              dependency_of(arrays[a], submitted)};
     const fs::path file = folder / fmt::format("array-{}.sh", a);
     write_whole(file, text_of(script, arrays[a]));
-    submitted.jobs.push_back(slurm::submit(file));
+    try {
+      submitted.jobs.push_back(slurm::submit(file));
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(fmt::format("{}; {} of {} array jobs are submitted, run again for the rest",
+                                           error.what(), a, arrays.size()));
+    }
     note_job(submission, a, submitted.jobs.back());
     for (const auto& [index, e] : arrays[a].tasks) submitted.element_at[e] = {a, index};
     count(layers, arrays[a], submitted.jobs.back(), elements, works, instances);

@@ -85,18 +85,31 @@ check "Slurm cancelled no others" same \
   "$(squeue --noheader --array --states=CANCELLED --format=%r | sort | uniq -c | tr -s ' ')" " 9 DependencyNeverSatisfied"
 sed -i 's/fail, /"", /' failing.yaml
 
-# A controller that is killed in the middle of a sweep and started again. It saves its state every five seconds.
-slow=(--set scan.sleep_s=8)
+# A stage that fails until its third start: submitted again by --wait, as often as its retries say.
+sed 's/  thin: *{/&retries: 2, /' pipeline.yaml >flaky.yaml
+check "--wait submits again what failed and has retries left" env SEQUENCE=one "$SEDIMENT_BIN/sediment" run flaky.yaml \
+  --stages stages --out flaky --backend slurm --profile profile.yaml --wait --set thin.fault=twice --set "thin.diary=$tmp/starts"
+check "which took three starts" same "$(cat starts)" "thin
+thin
+thin"
+
+# A controller that is killed in the middle of a sweep and started again. What it has not saved it forgets, and would give
+# the numbers of running jobs to others: so nothing starts any more once it has saved them.
+slow=(--set scan.sleep_s=4)
 : >diary
 check "a sweep is submitted and left alone" on_slurm slow "${slow[@]}"
-shows() { status slow "${slow[@]}" >status.log; grep -q "$1" status.log; }
-check "status shows what runs" within 20 shows '/scan *running'
+shows() { status slow "${slow[@]}" >status.log; grep -qx "$1" status.log; }
+check "status shows what runs" within 20 shows '4 running, 60 pending'
 check "and what waits, and why" grep -q '/smooth *pending (Dependency)' status.log
-sleep 6
+scontrol update partitionname=main state=down
+touch saved
+sbatch --hold --output=/dev/null --wrap true >held.log
+check "the controller saves its state" within 30 test slurm/state/job_state -nt saved
 kill_controller
-check "status does without a controller" shows 'squeue does not answer'
+check "status does without a controller" grep -q 'squeue does not answer' <<<"$(status slow "${slow[@]}")"
 start_controller
 check "the controller comes back" slurm_is_up
+scontrol update partitionname=main state=up
 check "the sweep is brought to its end" on_slurm slow "${slow[@]}" --wait
 check "nothing was lost: each distinct stage ran once" same "$(sort diary | uniq -c | tr -s ' ' | tr '\n' ';')" " 24 chart; 4 scan; 12 smooth; 24 thin;"
 check "and the bytes are the same" diff <(bytes_of local) <(bytes_of slow)
