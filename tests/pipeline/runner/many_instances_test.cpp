@@ -24,7 +24,8 @@ std::vector<std::string> ran_in(const fs::path& runs) {
                                       [&](const auto& a, const auto& b) { return written(a) < written(b); });
   std::vector<std::string> ran;
   std::ifstream stream(last / "run.json");
-  for (const Json& stage : Json::parse(stream).at("stages")) ran.push_back(stage.at("stage"));
+  const Json run = Json::parse(stream);
+  for (const Json& stage : run.at("stages")) ran.push_back(stage.at("stage"));
   return ran;
 }
 

@@ -56,10 +56,9 @@ stages:
   const auto lanes = [&](const std::string& flags) {
     bench.shell("rm -rf out");
     REQUIRE(bench.run("-j4 " + flags).code == 0);
+    const Json trace = Json::parse(bench.shell("cat out/.sediment/runs/*/trace.json").out);
     std::set<int> all;
-    for (const Json& event :
-         Json::parse(bench.shell("cat out/.sediment/runs/*/trace.json").out).at("traceEvents"))
-      all.insert(event.at("tid").get<int>());
+    for (const Json& event : trace.at("traceEvents")) all.insert(event.at("tid").get<int>());
     return all.size();
   };
   CHECK(lanes("--resource licences=1") == 1);
