@@ -24,10 +24,10 @@ constexpr const char* kScript = R"bash(_sediment() {
     if [[ -z $command ]]; then [[ $word == -* ]] || command=$word
     elif [[ $word == -* ]]; then
       if [[ -n $(_sediment_value "$command" "$word") ]]; then
-        [[ ${COMP_WORDS[i+1]} != = ]] || ((++i))
+        [[ ${COMP_WORDS[i+1]-} != = ]] || ((++i))
         ((++i))
         # name=value of a --set
-        [[ ${COMP_WORDS[i+1]} != = ]] || ((i += 2))
+        [[ ${COMP_WORDS[i+1]-} != = ]] || ((i += 2))
       fi
     else
       ((++place == 1)) && config=$word
