@@ -61,7 +61,7 @@ std::string wanted_by(const CLI::Option& option) {
   }
   if (type == "DIR" || name == "folder" || name == "other") return "folders";
   if (type == "STAGE" || name == "stage") return "stages";
-  if (name.ends_with("--set")) return "settings";
+  if (!option.get_lnames().empty() && option.get_lnames().front() == "set") return "settings";
   return type == "CONFIG" || name == "config" ? "files" : "any";
 }
 
