@@ -9,15 +9,14 @@
 namespace sediment::track {
 namespace {
 
-constexpr double kFunctionTolerance = 1e-5;
 constexpr double kNearest_m = 0.05;
 
 // Levenberg and Marquardt with the trust region of Ceres, which is Madsen, Nielsen and Tingleff's.
-double descend(NormalEquations& equations, BundleState& state, int max_iterations) {
+double descend(NormalEquations& equations, BundleState& state, const AdjustmentRule& rule) {
   double cost = equations.cost(state), radius = 1e4, shrink = 2;
   if (!std::isfinite(cost)) throw std::runtime_error("bundle adjustment starts with a point behind a camera");
   bool moved = true;
-  for (int i = 0; i < max_iterations && radius > 1e-12; ++i) {
+  for (int i = 0; i < rule.max_iterations && radius > 1e-12; ++i) {
     if (moved) equations.linearise(state);
     moved = false;
     if (equations.solve(1 / radius)) {
@@ -27,14 +26,14 @@ double descend(NormalEquations& equations, BundleState& state, int max_iteration
       if (gain > 0 && quality > 1e-3) {
         state = std::move(next);
         moved = true;
-        const bool small = gain < kFunctionTolerance * cost;
+        const bool small = gain < rule.least_gain * cost;
         cost = next_cost;
         radius = std::min(1e16, radius / std::max(1.0 / 3, 1 - std::pow(2 * quality - 1, 3)));
         shrink = 2;
         if (small) break;
         continue;
       }
-      if (std::abs(gain) < kFunctionTolerance * cost) break;
+      if (std::abs(gain) < rule.least_gain * cost) break;
     }
     radius /= shrink;
     shrink *= 2;
@@ -49,7 +48,7 @@ double adjust(Bundle& bundle, const Pinhole& pinhole, const AdjustmentRule& rule
   for (const Bundle::Camera& camera : bundle.cameras) state.cameras.push_back(camera.camera_from_world);
   state.points = bundle.points;
   NormalEquations equations(bundle, pinhole, rule);
-  const double cost = descend(equations, state, rule.max_iterations);
+  const double cost = descend(equations, state, rule);
   // Many products of rotations leave the group by rounding.
   for (std::size_t i = 0; i < state.cameras.size(); ++i)
     if (!bundle.cameras[i].fixed)

@@ -30,9 +30,10 @@ struct Bundle {
 
 struct AdjustmentRule {
   int max_iterations = 10;
-  bool robust = true;     ///< Huber loss at the 95 % bound; plain least squares without
-  bool timing = false;    ///< finds the sensor's timing too, with a weak prior at 0 where nothing tells it
-  bool parallel = false;  ///< over several threads; only where no other work is waiting for them
+  bool robust = true;        ///< Huber loss at the 95 % bound; plain least squares without
+  bool timing = false;       ///< finds the sensor's timing too, with a weak prior at 0 where nothing tells it
+  bool parallel = false;     ///< over several threads; only where no other work is waiting for them
+  double least_gain = 1e-5;  ///< share of the cost: a step that saves less is the last
 };
 
 /// Minimises the sum of the squared residuals over all cameras that are not fixed and over all points, in

@@ -71,7 +71,10 @@ std::optional<Tracker::Found> Tracker::find_nearby(const Pose& predicted) {
     }
   }
   if (found) found = match_local_map(*found);
-  if (!found) found = align_to_keyframe(start);
+  // Surfaces alone look alike in many places: they may carry on from the frame before, but not find the way
+  // back.
+  const bool unbroken = last_tracked_ + 2 == static_cast<int>(frames_.size());
+  if (!found && unbroken) found = align_to_keyframe(start);
   return found;
 }
 
