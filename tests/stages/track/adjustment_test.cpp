@@ -85,13 +85,6 @@ TEST_CASE("an adjustment with links between cameras finds the minimum that Ceres
   compare(bundle, {50, true});
 }
 
-TEST_CASE("an adjustment of many cameras, whose system is sparse, finds the minimum that Ceres finds") {
-  Bundle bundle = noisy_bundle(50, 150);
-  std::erase_if(bundle.observations,
-                [](const Bundle::Observation& o) { return std::abs(o.camera_idx - o.point_idx / 3) > 4; });
-  compare(bundle, {50, true});
-}
-
 TEST_CASE("an adjustment on several threads gives the bits of one") {
   for (const bool timing : {false, true}) {
     Bundle alone = noisy_bundle(8, 200), spread = alone;
