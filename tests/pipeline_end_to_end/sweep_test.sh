@@ -4,7 +4,7 @@
 # shellcheck source=tests/pipeline_end_to_end/small_scene.sh
 source "$(dirname "$0")/small_scene.sh"
 cd "$tmp" || exit 1
-sequences=(one two three four) leaves=(0.02 0.05 0.1) neighbors=(20 50)
+sequences=(one two three four) leaves=(0.01 0.02 0.05) neighbors=(20 50)
 unset MODEL POSES SEQUENCE MASKS
 seed=0
 for sequence in "${sequences[@]}"; do
@@ -46,5 +46,5 @@ values=(--value fuse.cloud.pcd --value sor.cloud.pcd --value voxel.cloud.pcd --v
 check "its table has the sizes of the files" diff <(by_hand) <(table "${values[@]}" --format csv)
 sweep
 check "a second sweep runs nothing" says "192 kept in"
-check "and prints the table" says "| four     | 0.1        | 50"
+check "and prints the table" says "| four     | 0.05       | 50"
 finish

@@ -32,9 +32,9 @@ check "only what is missing is installed, without recommended packages" same "$(
 apt-get install -q -y --no-install-recommends libpcl-dev catch2"
 
 export ABSENT=snakemake
-run "$setup" --check --no-onnxruntime
+run "$setup" --check --no-onnxruntime --no-web
 check "what only benchmarks need is not missed" same "$code" 0
-refuses "unless they are asked for" 1 "missing packages: snakemake" "$setup" --check --no-onnxruntime --benchmarks
+refuses "unless they are asked for" 1 "missing packages: snakemake" "$setup" --check --no-onnxruntime --no-web --benchmarks
 
 ABSENT=
 if ! compgen -G '/usr/include/onnxruntime*' >/dev/null && ! compgen -G '/usr/local/include/onnxruntime*' >/dev/null; then

@@ -39,7 +39,8 @@ std::vector<InstanceResults> read_results(const std::filesystem::path& out, cons
     InstanceResults results;
     const RunRecord record = Workspace(point.name.empty() ? out : out / point.name).read_record();
     for (const std::string& stage : record.order) {
-      auto receipt = store.receipt(record.stages.at(stage).key);
+      const std::string& key = record.stages.at(stage).key;  // empty: the stage was never reached
+      auto receipt = key.empty() ? std::nullopt : store.receipt(key);
       if (!receipt) continue;
       receipt->log.clear();
       results.stages.push_back(stage);

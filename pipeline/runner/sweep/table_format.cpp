@@ -38,7 +38,7 @@ std::string csv(const ResultTable& table) {
   std::string text;
   for (const auto& row : table) {
     for (std::size_t i = 0; i < row.size(); ++i)
-      text += (i == 0 ? "" : ",") + (row[i].number ? Json(*row[i].number).dump() : quoted(row[i].text));
+      text += (i == 0 ? "" : ",") + (row[i].number ? fmt::format("{}", *row[i].number) : quoted(row[i].text));
     text += '\n';
   }
   return text;

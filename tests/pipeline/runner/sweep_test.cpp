@@ -180,6 +180,17 @@ TEST_CASE("a table has the sizes of the files, in rows, columns and units as ask
   CHECK(bench.sediment("table data").code == 2);
 }
 
+TEST_CASE("a table of a sweep in which a stage failed leaves out what was never reached") {
+  const SweepBench bench;
+  bench.write("all.yaml", "pipeline: pipeline.yaml\nover: [{smooth.fault: [none, fail]}]\n");
+  REQUIRE(bench.sweep("--keep-going").code == 1);
+  const auto table = bench.sediment("table out/all --value thin.text.txt --row smooth.fault --format csv");
+  CHECK(table.code == 0);
+  CHECK(table.out == "smooth.fault,thin.text.txt\nnone," +
+                         std::to_string(fs::file_size(bench / "out/all/smooth.fault=none/thin/text.txt")) +
+                         "\nfail,-\n");
+}
+
 TEST_CASE("compare shows in what two runs differ") {
   const Workbench bench;
   REQUIRE(bench.run().code == 0);
