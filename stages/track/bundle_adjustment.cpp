@@ -9,8 +9,6 @@
 namespace sediment::track {
 namespace {
 
-constexpr double kNearest_m = 0.05;
-
 // Levenberg and Marquardt with the trust region of Ceres, which is Madsen, Nielsen and Tingleff's.
 double descend(NormalEquations& equations, BundleState& state, const AdjustmentRule& rule) {
   double cost = equations.cost(state), radius = 1e4, shrink = 2;
@@ -63,9 +61,8 @@ double adjust(Bundle& bundle, const Pinhole& pinhole, const AdjustmentRule& rule
 double chi_square(const Bundle& bundle, const Bundle::Observation& observation, const Pinhole& pinhole) {
   const Vec3 p =
       bundle.cameras[observation.camera_idx].camera_from_world * bundle.points[observation.point_idx];
-  if (p.z < kNearest_m) return 1e9;
-  const auto r = residual_of(observation.measurement, pinhole, p);
-  return r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+  if (p.z < kProjectable_m) return 1e9;
+  return squared(residual_of(observation.measurement, pinhole, p));
 }
 
 }  // namespace sediment::track

@@ -15,18 +15,12 @@ namespace {
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using Wide = Eigen::Matrix<double, 3, 6>;
 
-constexpr double kNearest_m = 0.05;
-
 Measurement retimed(const Measurement& measurement, const std::array<double, 2>& timing) {
   Measurement timed = measurement;
   timed.u_px += timing[0] * timed.u_rate;
   timed.v_px += timing[0] * timed.v_rate;
   if (timed.inverse_depth > 0) timed.inverse_depth += timing[1] * timed.depth_rate;
   return timed;
-}
-
-double squared(const std::array<double, 3>& r) {
-  return r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
 }
 
 }  // namespace
@@ -105,8 +99,8 @@ double NormalEquations::cost(const BundleState& state) const {
       for (std::size_t i = first_[point]; i < first_[point + 1]; ++i) {
         const Measurement measurement = retimed(*sights_[i].measurement, state.timing);
         const Vec3 p = state.cameras[sights_[i].camera_idx] * state.points[point];
-        const double squares = p.z < kNearest_m ? std::numeric_limits<double>::infinity()
-                                                : squared(residual_of(measurement, pinhole_, p));
+        const double squares = p.z < kProjectable_m ? std::numeric_limits<double>::infinity()
+                                                    : squared(residual_of(measurement, pinhole_, p));
         costs[part] += 0.5 * (rule_.robust ? huber(squares, chi_square_bound(measurement)) : squares);
       }
   });

@@ -14,11 +14,6 @@ using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 constexpr int kRounds = 4, kStepsPerRound = 6;
 constexpr double kLargestScale = 3;
-constexpr double kNearest_m = 0.05;  // a point nearer or behind cannot be projected
-
-double squared(const std::array<double, 3>& r) {
-  return r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
-}
 
 // One Gauss-Newton step; returns its length (radians and metres together).
 double step(const std::vector<Correspondence>& correspondences, const std::vector<char>& inlier,
@@ -29,7 +24,7 @@ double step(const std::vector<Correspondence>& correspondences, const std::vecto
     if (!inlier[i]) continue;
     const Measurement& measurement = correspondences[i].measurement;
     const Vec3 p = camera_from_world * correspondences[i].point;
-    if (p.z < kNearest_m) continue;
+    if (p.z < kProjectable_m) continue;
     const auto r = residual_of(measurement, pinhole, p);
     const auto by_point = residual_by_point(measurement, pinhole, p);
     const double bound = huber_scale * chi_square_bound(measurement), chi_square = squared(r);
@@ -55,7 +50,7 @@ std::vector<double> all_chi_squares(const std::vector<Correspondence>& correspon
   std::vector<double> chi_squares;
   for (const Correspondence& c : correspondences) {
     const Vec3 p = camera_from_world * c.point;
-    chi_squares.push_back(p.z < kNearest_m ? 1e9 : squared(residual_of(c.measurement, pinhole, p)));
+    chi_squares.push_back(p.z < kProjectable_m ? 1e9 : squared(residual_of(c.measurement, pinhole, p)));
   }
   return chi_squares;
 }

@@ -29,6 +29,12 @@ std::array<double, 3> residual_of(const Measurement& measurement, const Pinhole&
 std::array<double, 9> residual_by_point(const Measurement& measurement, const Pinhole& pinhole,
                                         Vec3 point_in_camera);
 
+inline constexpr double kProjectable_m = 0.05;  ///< a point nearer or behind cannot be projected
+
+inline double squared(const std::array<double, 3>& r) {
+  return r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+}
+
 /// Squared bounds at 95 % of a chi-square distribution: 2 (no depth) and 3 degrees of freedom.
 inline constexpr double kChiSquare2 = 5.991, kChiSquare3 = 7.815;
 

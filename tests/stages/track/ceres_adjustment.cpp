@@ -16,7 +16,6 @@ namespace {
 
 using RowMajor6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-constexpr double kNearest_m = 0.05;
 
 // The residual of one observation and its derivatives by camera and point.
 bool evaluate(const Measurement& measurement, const Pinhole& pinhole, double const* camera,
@@ -24,7 +23,7 @@ bool evaluate(const Measurement& measurement, const Pinhole& pinhole, double con
   const RowMajor3 rotation = Eigen::Map<const Eigen::Quaterniond>(camera).toRotationMatrix();
   const Eigen::Vector3d turned = rotation * Eigen::Map<const Eigen::Vector3d>(point);
   const Vec3 p{turned.x() + camera[4], turned.y() + camera[5], turned.z() + camera[6]};
-  if (p.z < kNearest_m) return false;  // the step is refused and shortened
+  if (p.z < kProjectable_m) return false;  // the step is refused and shortened
   const auto r = residual_of(measurement, pinhole, p);
   std::copy(r.begin(), r.end(), residuals);
   if (!by_camera && !by_position) return true;
