@@ -41,6 +41,10 @@ FrameFeatures::FrameFeatures(std::vector<Feature> features,
       descriptors_(std::move(descriptors)),
       columns_((width + kCell_px - 1) / kCell_px),
       rows_((height + kCell_px - 1) / kCell_px) {
+  fill_grid();
+}
+
+void FrameFeatures::fill_grid() {
   cell_start_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
   std::vector<int> cells;
   for (const Feature& feature : features_) {
@@ -52,6 +56,19 @@ FrameFeatures::FrameFeatures(std::vector<Feature> features,
   std::vector<int> next = cell_start_;
   for (std::size_t feature_idx = 0; feature_idx < cells.size(); ++feature_idx)
     cell_features_[next[cells[feature_idx]]++] = static_cast<int>(feature_idx);
+}
+
+FrameFeatures FrameFeatures::joined(const FrameFeatures& more) const {
+  FrameFeatures all;
+  all.columns_ = columns_;
+  all.rows_ = rows_;
+  all.features_ = features_;
+  all.features_.insert(all.features_.end(), more.features_.begin(), more.features_.end());
+  auto descriptors = std::make_shared<std::vector<Descriptor>>(*descriptors_);
+  descriptors->insert(descriptors->end(), more.descriptors_->begin(), more.descriptors_->end());
+  all.descriptors_ = std::move(descriptors);
+  all.fill_grid();
+  return all;
 }
 
 int FrameFeatures::cell_of(float position_px, int cells) const {
@@ -81,9 +98,8 @@ cv::Mat allowed_pixels(const cv::Mat& dynamic_mask, int halo_px) {
   return 255 - grown;
 }
 
-FrameFeatures find_features(const cv::Mat& gray, const cv::Mat& allowed, const Camera& camera,
-                            const Parameters& parameters) {
-  std::vector<cv::KeyPoint> corners = spread_corners(image_pyramid(gray), allowed, parameters.features);
+FrameFeatures find_features(const cv::Mat& gray, const cv::Mat& allowed, const Camera& camera, int wanted) {
+  std::vector<cv::KeyPoint> corners = spread_corners(image_pyramid(gray), allowed, wanted);
   auto descriptors = std::make_shared<const std::vector<Descriptor>>(describe(gray, corners));
   std::vector<Feature> features;
   features.reserve(corners.size());

@@ -50,6 +50,9 @@ class FrameFeatures {
   const std::vector<Feature>& features() const { return features_; }
   const std::shared_ptr<const std::vector<Descriptor>>& descriptors() const { return descriptors_; }
 
+  /// These features and behind them `more` of the same image.
+  FrameFeatures joined(const FrameFeatures& more) const;
+
   /// Appends the indices of the features within `radius_px` (square) of a place and with an octave in
   /// [min_octave, max_octave] to `found`, after clearing it. Fixed order.
   void find_near(float u_px, float v_px, float radius_px, int min_octave, int max_octave,
@@ -57,6 +60,7 @@ class FrameFeatures {
 
  private:
   int cell_of(float position_px, int cells) const;
+  void fill_grid();
 
   std::vector<Feature> features_;
   std::shared_ptr<const std::vector<Descriptor>> descriptors_;
@@ -65,11 +69,10 @@ class FrameFeatures {
   std::vector<int> cell_features_;
 };
 
-/// ORB features of a frame (Rublee et al., ICCV 2011): FAST corners over a pyramid, spread evenly over the
-/// image, none where `allowed` (CV_8UC1, may be empty) is 0. `gray` is CV_8UC1 and raw. Without depth yet:
-/// measured_features adds it.
-FrameFeatures find_features(const cv::Mat& gray, const cv::Mat& allowed, const Camera& camera,
-                            const Parameters& parameters);
+/// About `wanted` ORB features of a frame (Rublee et al., ICCV 2011): FAST corners over a pyramid, spread
+/// evenly over the image, none where `allowed` (CV_8UC1, may be empty) is 0. `gray` is CV_8UC1 and raw.
+/// Without depth yet: measured_features adds it.
+FrameFeatures find_features(const cv::Mat& gray, const cv::Mat& allowed, const Camera& camera, int wanted);
 
 /// 255 where features may be, 0 on the dynamic pixels of a mask (any value but 0) and within their halo;
 /// empty if the mask is.

@@ -57,13 +57,17 @@ int main(int argc, char** argv) {
       contract::Choices<track::Mode>{{"offline", track::Mode::offline}, {"causal", track::Mode::causal}});
   stage.tunes("features", parameters.features, "ORB features a frame", {100, 10000});
   stage.tunes("mask_halo_px", parameters.mask_halo_px, "no feature this close to a dynamic pixel", {0, 100});
+  stage.tunes("still_features", parameters.still_features,
+              "mode offline: features on dynamic pixels serve too, where the finished map finds that they "
+              "hold still");
   stage.tunes("depth_max_m", parameters.depth_max_m, "depth beyond is not used, metres", {0.1, 1000});
   stage.tunes("depth_noise", parameters.depth_noise, "standard deviation of an inverse depth, 1/m",
               {1e-6, 1});
   stage.tunes("pixel_noise_px", parameters.pixel_noise_px,
               "standard deviation of a feature's position, pixels", {0.01, 10});
   stage.tunes("passes", parameters.passes,
-              "of measuring and adjusting the map; later ones know motion and timing", {1, 5});
+              "at most: of measuring and adjusting the map, until the timing of the sensor is settled",
+              {1, 20});
   stage.tunes("min_coverage", parameters.min_coverage, "an error if a smaller share of the frames has a pose",
               {0, 1});
   stage.tunes("max_gap_s", parameters.max_gap_s, "engine given: longest gap that is interpolated, seconds",
@@ -83,6 +87,7 @@ int main(int argc, char** argv) {
     work.metrics()["landmarks"] = result.landmarks;
     work.metrics()["segments"] = result.segments;
     work.metrics()["loops"] = result.loops;
+    work.metrics()["still_landmarks"] = result.still_landmarks;
     work.metrics()["readout_s"] = result.timing.readout_s;
     work.metrics()["depth_lag_s"] = result.timing.depth_lag_s;
     track::require_coverage(result.frames, parameters.min_coverage);

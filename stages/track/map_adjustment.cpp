@@ -132,7 +132,9 @@ SensorTiming adjust_all(Map& map, const Pinhole& pinhole, const SensorTiming& ti
   drop_outliers(with_outliers, pinhole, map);
   const auto [timed_cost, timed] = adjusted(extract(map, keyframes, pinhole), false, true);
   const auto [cost, untimed] = adjusted(timed, false, false);
-  const bool believed = timed_cost < (1 - kBelievedGain) * cost;
+  const bool known =
+      timing.readout_s != 0 || timing.depth_lag_s != 0;  // what is believed once is only made finer
+  const bool believed = timed_cost < (known ? 1 : 1 - kBelievedGain) * cost;
   write_back(believed ? timed : untimed, map);
   drop_outliers(believed ? timed : untimed, pinhole, map);
   return (believed ? timed : untimed).bundle.timing;

@@ -7,7 +7,7 @@
 namespace sediment::track {
 namespace {
 
-constexpr double kDifference_s = 0.005;  // of depth lag, for the rate of depth
+constexpr double kDifference_s = 0.02;  // of depth lag, for the rate of depth
 
 // Inverse depth at the stamp of the point that the camera sees along `ray` at that time; 0 if there is none.
 // The depth image was taken `delay_s` later, when the point was at another of its pixels.
@@ -54,7 +54,8 @@ Feature measured(Feature feature, const cv::Mat& depth, const Camera& camera, co
   feature.depth_rate = 0;
   if (q > 0) {
     const double earlier = inverse_depth(-kDifference_s), later = inverse_depth(kDifference_s);
-    if (earlier > 0 && later > 0)
+    const bool even = std::abs(earlier + later - 2 * q) < 3 * parameters.depth_noise;
+    if (earlier > 0 && later > 0 && even)
       feature.depth_rate = static_cast<float>((later - earlier) / (2 * kDifference_s));
   }
   return feature;

@@ -12,15 +12,16 @@ enum class Mode { offline, causal };
 struct Parameters {
   Engine engine = Engine::orb;
   Mode mode = Mode::offline;
-  int features = 1500;     ///< ORB features a frame, over all pyramid levels
-  int mask_halo_px = 5;    ///< no feature this close to a dynamic pixel
-  double depth_max_m = 8;  ///< measurements beyond are not used
+  int features = 1500;         ///< ORB features a frame, over all pyramid levels
+  int mask_halo_px = 5;        ///< no feature this close to a dynamic pixel
+  bool still_features = true;  ///< features on dynamic pixels serve in the end, where they hold still
+  double depth_max_m = 8;      ///< measurements beyond are not used
   double depth_noise =
       0.0014;  ///< standard deviation of the inverse depth [1/m]: sigma_z = depth_noise * z^2
   double pixel_noise_px = 0.7;  ///< standard deviation of a feature's position at pyramid level 0
-  int passes = 3;               ///< measuring keyframes and adjusting; later ones know motion and timing
-  double min_coverage = 0.5;    ///< an error if a smaller share of the frames has a pose
-  double max_gap_s = 0.1;       ///< engine given: longest gap between poses that is interpolated
+  int passes = 6;  ///< at most: of measuring keyframes and adjusting, until the sensor's timing is settled
+  double min_coverage = 0.5;  ///< an error if a smaller share of the frames has a pose
+  double max_gap_s = 0.1;     ///< engine given: longest gap between poses that is interpolated
 };
 
 }  // namespace sediment::track

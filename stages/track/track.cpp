@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "stages/track/completion.hpp"
+#include "stages/track/finished_map.hpp"
 #include "stages/track/loop_closing.hpp"
-#include "stages/track/map_adjustment.hpp"
 #include "stages/track/tracker.hpp"
 
 namespace sediment::track {
@@ -25,12 +25,6 @@ void require_forward_time(const Recording& recording) {
                                ") is not later than the one before (" + recording.stamps[i - 1] + ")");
 }
 
-double depth_delay_s(const Recording& recording, std::size_t frame_idx) {
-  return recording.depth_stamps_s.empty()
-             ? 0
-             : recording.depth_stamps_s[frame_idx] - recording.stamps_s[frame_idx];
-}
-
 // What tracking needs of a frame, found in its images.
 View found_view(const Recording& recording, const Parameters& parameters, const DenseCamera& dense_camera,
                 std::size_t frame_idx) {
@@ -40,30 +34,20 @@ View found_view(const Recording& recording, const Parameters& parameters, const 
   cv::Mat gray;
   cv::cvtColor(frame.color, gray, cv::COLOR_BGR2GRAY);
   View view;
-  view.features = std::make_shared<const FrameFeatures>(
-      measured_features(find_features(gray, allowed, recording.camera, parameters), frame.depth,
-                        recording.camera, {}, parameters));
+  const auto found = [&](const cv::Mat& where, int wanted) {
+    return std::make_shared<const FrameFeatures>(measured_features(
+        find_features(gray, where, recording.camera, wanted), frame.depth, recording.camera, {}, parameters));
+  };
+  view.features = found(allowed, parameters.features);
+  if (parameters.still_features && parameters.mode == Mode::offline && !allowed.empty()) {
+    const cv::Mat dynamic = 255 - allowed;
+    const double share =
+        static_cast<double>(cv::countNonZero(dynamic)) / static_cast<double>(dynamic.total());
+    if (share > 0) view.waiting = found(dynamic, static_cast<int>(std::lround(share * parameters.features)));
+  }
   view.dense = std::make_shared<const DenseFrame>(
       dense_frame(gray, frame.depth, allowed, dense_camera, parameters.depth_noise));
   return view;
-}
-
-// What a pass has learned about the frames, for the next one.
-struct Hindsight {
-  std::vector<std::shared_ptr<const FrameFeatures>> features;
-  std::vector<std::shared_ptr<const DenseFrame>> dense;
-  std::vector<Motion> motions;
-  SensorTiming timing;
-};
-
-std::shared_ptr<const FrameFeatures> corrected_features(const Recording& recording,
-                                                        const Parameters& parameters,
-                                                        const Hindsight& hindsight, std::size_t frame_idx) {
-  const Exposure exposure{hindsight.motions[frame_idx], hindsight.timing,
-                          depth_delay_s(recording, frame_idx)};
-  const cv::Mat depth = recording.depth ? recording.depth(frame_idx) : recording.frame(frame_idx).depth;
-  return std::make_shared<const FrameFeatures>(
-      measured_features(*hindsight.features[frame_idx], depth, recording.camera, exposure, parameters));
 }
 
 // Views of coming frames are made while earlier ones are tracked, one by one and in order.
@@ -83,24 +67,6 @@ void run_front_end(const Recording& recording, const std::function<View(std::siz
     if (advance) advance();
   });
   tbb::parallel_pipeline(in_flight, read & view & follow);
-}
-
-Hindsight learn(const Recording& recording, Tracker& tracker, const SensorTiming& timing) {
-  constexpr double kMaxGap_s = 0.11;
-  Hindsight hindsight;
-  hindsight.timing = timing;
-  std::vector<Pose> poses(tracker.frames().size());
-  std::vector<const Pose*> known(poses.size(), nullptr);
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const TrackedFrame& frame = tracker.frames()[i];
-    hindsight.features.push_back(frame.features);
-    hindsight.dense.push_back(frame.dense);
-    if (!frame.tracked) continue;
-    poses[i] = camera_from_world(frame, tracker.map()).inverse();
-    known[i] = &poses[i];
-  }
-  hindsight.motions = motions_of(recording.stamps_s, known, kMaxGap_s);
-  return hindsight;
 }
 
 // The segment with most frames: where others are in its world nobody knows.
@@ -139,37 +105,6 @@ Tracked collect(const Recording& recording, Tracker& tracker, Mode mode) {
   return result;
 }
 
-void share_with_keyframes(Tracker& tracker) {
-  for (Keyframe& keyframe : tracker.map().keyframes)
-    keyframe.features = tracker.frames()[keyframe.frame_idx].features;
-}
-
-// Measures features again with what the poses tell of the camera's motion: of the keyframes, or of the
-// others.
-void measure_again(const Recording& recording, const Parameters& parameters, const SensorTiming& timing,
-                   bool keyframes, Tracker& tracker) {
-  const Hindsight hindsight = learn(recording, tracker, timing);
-  tbb::parallel_for(std::size_t{0}, tracker.frames().size(), [&](std::size_t i) {
-    TrackedFrame& frame = tracker.frames()[i];
-    if (frame.keyframe == keyframes) frame.features = corrected_features(recording, parameters, hindsight, i);
-  });
-  share_with_keyframes(tracker);
-}
-
-// Whether what was learned moves measurements by so much that the recording is worth another pass: by more
-// than half a pixel in a tenth of the frames.
-bool worth_another_pass(const Recording& recording, const Hindsight& hindsight) {
-  constexpr double kShift_px = 0.5, kShare = 0.1;
-  std::size_t moved_far = 0;
-  for (std::size_t i = 0; i < hindsight.motions.size(); ++i) {
-    const SensorTiming& timing = hindsight.timing;
-    const double time_s =
-        0.5 * std::abs(timing.readout_s) + std::abs(timing.depth_lag_s + depth_delay_s(recording, i));
-    moved_far += norm(hindsight.motions[i].angular_rad_s) * recording.camera.fx * time_s > kShift_px;
-  }
-  return static_cast<double>(moved_far) > kShare * static_cast<double>(hindsight.motions.size());
-}
-
 }  // namespace
 
 Tracked track(const Recording& recording, const Parameters& parameters,
@@ -182,26 +117,18 @@ Tracked track(const Recording& recording, const Parameters& parameters,
       recording, [&](std::size_t i) { return found_view(recording, parameters, dense_camera, i); }, advance,
       tracker);
   if (parameters.mode == Mode::causal) return collect(recording, tracker, Mode::causal);
-  SensorTiming timing;
   LoopClosing closing;
+  FinishedMap finished;
   if (tracker.map().keyframes.size() > 1) {
     closing = close_loops(tracker.map(), pinhole, dense_camera, parameters.depth_noise);
-    measure_again(recording, parameters, timing, true, tracker);
-    timing = adjust_all(tracker.map(), pinhole, timing);
-    if (worth_another_pass(recording, learn(recording, tracker, timing))) {
-      for (int pass = 1; pass < parameters.passes; ++pass) {
-        measure_again(recording, parameters, timing, true, tracker);
-        match_again(tracker.map(), pinhole);
-        timing = adjust_all(tracker.map(), pinhole, timing);
-      }
-      measure_again(recording, parameters, timing, false, tracker);
-    }
+    finished = finish_map(recording, parameters, pinhole, tracker);
   }
   find_lost_frames(tracker, pinhole);
   refine_frames(tracker, pinhole);
   Tracked result = collect(recording, tracker, Mode::offline);
-  result.timing = timing;
+  result.timing = finished.timing;
   result.loops = closing.loops;
+  result.still_landmarks = finished.still_landmarks;
   return result;
 }
 

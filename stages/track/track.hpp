@@ -28,9 +28,10 @@ struct Tracked {
   Trajectory poses;                   ///< of the frames that have one; the first one's camera is the world
   std::vector<FrameTracking> frames;  ///< one a frame of the recording
   std::size_t landmarks = 0;
-  int segments = 0;     ///< parts of the recording that could not be joined; poses are those of the largest
-  int loops = 0;        ///< pairs of keyframes found to show one place
-  SensorTiming timing;  ///< as found from the recording
+  int segments = 0;  ///< parts of the recording that could not be joined; poses are those of the largest
+  int loops = 0;     ///< pairs of keyframes found to show one place
+  int still_landmarks = 0;  ///< on dynamic pixels, used because they hold still
+  SensorTiming timing;      ///< as found from the recording
 };
 
 /// Camera poses of a recording from its ORB features: front end, map, and, after the last frame, closing of

@@ -29,6 +29,7 @@ void Tracker::track(double stamp_s, const View& view) {
   TrackedFrame frame;
   frame.stamp_s = stamp_s;
   frame.features = view.features;
+  frame.waiting = view.waiting;
   frame.dense = view.dense;
   frames_.push_back(std::move(frame));
   images_ = nullptr;

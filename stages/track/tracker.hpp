@@ -16,6 +16,8 @@ namespace sediment::track {
 struct TrackedFrame {
   double stamp_s = 0;
   std::shared_ptr<const FrameFeatures> features;
+  std::shared_ptr<const FrameFeatures>
+      waiting;  ///< on dynamic pixels: none use them in the front end; may be null
   std::shared_ptr<const DenseFrame> dense;
   bool tracked = false, keyframe = false;
   int reference_idx = -1;  ///< keyframe
@@ -28,6 +30,7 @@ struct TrackedFrame {
 /// What tracking takes from a frame's images.
 struct View {
   std::shared_ptr<const FrameFeatures> features;
+  std::shared_ptr<const FrameFeatures> waiting;  ///< see TrackedFrame
   std::shared_ptr<const DenseFrame> dense;
 };
 

@@ -23,7 +23,7 @@ TEST_CASE("features cover every part of a textured image") {
   const Frame frame = record_box_room({Pose{}}, camera).frame(0);
   Parameters parameters;
   parameters.features = 800;
-  const auto features = find_features(gray_of(frame), {}, camera, parameters);
+  const auto features = find_features(gray_of(frame), {}, camera, parameters.features);
   CHECK(features.size() > 700);
   CHECK(features.size() <= 810);
   int cells[4][4] = {};
@@ -38,8 +38,8 @@ TEST_CASE("no feature lies on a dynamic pixel or within its halo") {
   cv::Mat mask(camera.height, camera.width, CV_8UC1, cv::Scalar(0));
   mask(cv::Rect(100, 80, 90, 70)) = kNonPriorDynamic;
   Parameters parameters;
-  const auto features =
-      find_features(gray_of(frame), allowed_pixels(mask, parameters.mask_halo_px), camera, parameters);
+  const auto features = find_features(gray_of(frame), allowed_pixels(mask, parameters.mask_halo_px), camera,
+                                      parameters.features);
   CHECK(features.size() > 300);
   const int halo = parameters.mask_halo_px;
   for (const Feature& f : features.features())
@@ -53,7 +53,7 @@ TEST_CASE("the lens is undone: features of a distorted image lie where the pinho
   Parameters parameters;
   const auto pinhole_features = [&](const Camera& camera) {
     const Frame frame = record_box_room({Pose{}}, camera).frame(0);
-    return find_features(gray_of(frame), {}, camera, parameters);
+    return find_features(gray_of(frame), {}, camera, parameters.features);
   };
   const auto a = pinhole_features(straight), b = pinhole_features(bent);
   int near = 0;
@@ -74,7 +74,7 @@ TEST_CASE("the lens is undone: features of a distorted image lie where the pinho
 TEST_CASE("a search by place finds exactly the features that a scan of all finds") {
   const Camera camera = small_camera();
   const Frame frame = record_box_room({Pose{}}, camera).frame(0);
-  const auto features = find_features(gray_of(frame), {}, camera, {});
+  const auto features = find_features(gray_of(frame), {}, camera, Parameters{}.features);
   std::vector<int> found;
   for (const auto& [u, v, radius] :
        {std::array<float, 3>{160, 120, 20}, {2, 3, 30}, {318, 238, 9}, {-5, 100, 40}}) {
@@ -94,7 +94,7 @@ TEST_CASE("a black image and one of a single grey have no features") {
   const Camera camera = small_camera();
   for (const int grey : {0, 128}) {
     const cv::Mat image(camera.height, camera.width, CV_8UC1, cv::Scalar(grey));
-    CHECK(find_features(image, {}, camera, {}).size() == 0);
+    CHECK(find_features(image, {}, camera, Parameters{}.features).size() == 0);
   }
 }
 
