@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "stages/track/completion.hpp"
+#include "stages/track/diagnosis.hpp"
 #include "stages/track/finished_map.hpp"
 #include "stages/track/loop_closing.hpp"
 #include "stages/track/tracker.hpp"
@@ -116,7 +117,11 @@ Tracked track(const Recording& recording, const Parameters& parameters,
   run_front_end(
       recording, [&](std::size_t i) { return found_view(recording, parameters, dense_camera, i); }, advance,
       tracker);
-  if (parameters.mode == Mode::causal) return collect(recording, tracker, Mode::causal);
+  if (parameters.mode == Mode::causal) {
+    Tracked result = collect(recording, tracker, Mode::causal);
+    result.diagnosis = diagnose(tracker.map(), pinhole);
+    return result;
+  }
   LoopClosing closing;
   FinishedMap finished;
   if (tracker.map().keyframes.size() > 1) {
@@ -126,6 +131,7 @@ Tracked track(const Recording& recording, const Parameters& parameters,
   find_lost_frames(tracker, pinhole);
   refine_frames(tracker, pinhole);
   Tracked result = collect(recording, tracker, Mode::offline);
+  result.diagnosis = diagnose(tracker.map(), pinhole);
   result.timing = finished.timing;
   result.loops = closing.loops;
   result.still_landmarks = finished.still_landmarks;

@@ -23,6 +23,24 @@ struct Recording {
   std::function<cv::Mat(std::size_t frame_idx)> dynamic_mask;  ///< DynamicValue; may be unset
 };
 
+/// A feature of a keyframe where it was found in the raw image.
+struct ShownFeature {
+  float u_px = 0, v_px = 0;
+  bool held = false;  ///< by a landmark that other keyframes see too
+};
+
+struct KeyframeFeatures {
+  std::size_t frame_idx = 0;
+  std::vector<ShownFeature> features;
+};
+
+/// How landmarks fit the keyframes that see them.
+struct Diagnosis {
+  std::vector<KeyframeFeatures> keyframes;
+  std::vector<float> error_px;     ///< reprojection errors
+  std::vector<float> depth_error;  ///< of inverse depth, in standard deviations
+};
+
 /// What came out of tracking.
 struct Tracked {
   Trajectory poses;                   ///< of the frames that have one; the first one's camera is the world
@@ -31,7 +49,8 @@ struct Tracked {
   int segments = 0;  ///< parts of the recording that could not be joined; poses are those of the largest
   int loops = 0;     ///< pairs of keyframes found to show one place
   int still_landmarks = 0;  ///< on dynamic pixels, used because they hold still
-  SensorTiming timing;      ///< as found from the recording
+  Diagnosis diagnosis;
+  SensorTiming timing;  ///< as found from the recording
 };
 
 /// Camera poses of a recording from its ORB features: front end, map, and, after the last frame, closing of

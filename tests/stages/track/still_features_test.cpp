@@ -44,7 +44,7 @@ Recording with_sliding_board(const std::vector<Pose>& truth, double speed_px) {
   return recording;
 }
 
-Tracked run(const Recording& recording, bool still_features) {
+Tracked track_with(const Recording& recording, bool still_features) {
   Parameters parameters;
   parameters.features = 700;
   parameters.still_features = still_features;
@@ -56,7 +56,7 @@ Tracked run(const Recording& recording, bool still_features) {
 TEST_CASE("what holds still under a mask serves after all") {
   const auto truth = swaying_poses(kFrames, 0.3, 0.4);
   const auto recording = masked_recording(truth);
-  const auto with = run(recording, true), without = run(recording, false);
+  const auto with = track_with(recording, true), without = track_with(recording, false);
   CHECK(with.still_landmarks > 100);
   CHECK(without.still_landmarks == 0);
   CHECK(position_error_m(with, truth) < position_error_m(without, truth));
@@ -66,7 +66,7 @@ TEST_CASE("what moves under a mask stays out, slow or fast") {
   const auto truth = swaying_poses(kFrames, 0.3, 0.4);
   for (const double speed_px : {0.5, 3.0}) {
     const auto recording = with_sliding_board(truth, speed_px);
-    const auto with = run(recording, true), without = run(recording, false);
+    const auto with = track_with(recording, true), without = track_with(recording, false);
     CHECK(with.still_landmarks < 10);
     CHECK(position_error_m(with, truth) < 1.05 * position_error_m(without, truth));
   }
