@@ -115,6 +115,7 @@ FinishedMap finish_map(const Recording& recording, const Parameters& parameters,
                        Tracker& tracker) {
   Map& map = tracker.map();
   FinishedMap finished;
+  if (parameters.passes == 0) return finished;
   measure_again(recording, parameters, {}, true, tracker);
   finished.timing = adjust_all(map, pinhole, {});
   const bool timed = worth_another_pass(recording, learn(recording, tracker, finished.timing));

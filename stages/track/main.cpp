@@ -1,13 +1,9 @@
-#include <fstream>
-
 #include "pipeline/artifacts/dynamic_masks.hpp"
-#include "pipeline/artifacts/image_file.hpp"
 #include "pipeline/artifacts/sequence.hpp"
 #include "pipeline/artifacts/trajectory_file.hpp"
 #include "pipeline/contract/progress.hpp"
 #include "pipeline/contract/stage.hpp"
-#include "stages/track/diagnosis.hpp"
-#include "stages/track/diagnosis_pictures.hpp"
+#include "stages/track/diagnosis_files.hpp"
 #include "stages/track/given_poses.hpp"
 #include "stages/track/track.hpp"
 
@@ -44,28 +40,6 @@ track::Tracked poses_given(const track::Recording& recording, contract::Work& wo
   result.frames =
       track::resample(given.trajectory, recording.stamps, recording.stamps_s, max_gap_s, result.poses);
   return result;
-}
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error("cannot write " + file.string());
-}
-
-/// At most 40 keyframes, evenly spread over the recording.
-void draw_diagnostics(const track::Recording& recording, const track::Diagnosis& diagnosis,
-                      const std::filesystem::path& folder) {
-  constexpr std::size_t kMost = 40;
-  std::filesystem::create_directories(folder);
-  const std::size_t keyframes = diagnosis.keyframes.size(), drawn = std::min(keyframes, kMost);
-  for (std::size_t i = 0; i < drawn; ++i) {
-    const track::KeyframeFeatures& keyframe = diagnosis.keyframes[i * keyframes / drawn];
-    const cv::Mat dynamic = recording.dynamic_mask ? recording.dynamic_mask(keyframe.frame_idx) : cv::Mat();
-    write_png(folder / (recording.stamps[keyframe.frame_idx] + ".png"),
-              track::features_picture(recording.frame(keyframe.frame_idx).color, dynamic, keyframe));
-  }
-  write_png(folder / "residuals.png", track::residuals_picture(diagnosis));
 }
 
 }  // namespace
@@ -121,7 +95,8 @@ int main(int argc, char** argv) {
     work.metrics()["depth_lag_s"] = result.timing.depth_lag_s;
     track::require_coverage(result.frames, parameters.min_coverage);
     write_trajectory(work.out(), result.poses, result.frames);
-    write_text(work.out() / "summary.txt", track::summary_of(result));
-    if (parameters.diagnostics) draw_diagnostics(recording, result.diagnosis, work.out() / "diagnostics");
+    track::write_summary(work.out() / "summary.txt", result);
+    if (parameters.diagnostics)
+      track::write_diagnostics(work.out() / "diagnostics", recording, result.diagnosis);
   });
 }
