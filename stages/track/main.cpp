@@ -5,29 +5,13 @@
 #include "pipeline/contract/stage.hpp"
 #include "stages/track/diagnosis_files.hpp"
 #include "stages/track/given_poses.hpp"
+#include "stages/track/recording.hpp"
 #include "stages/track/track.hpp"
 
 namespace {
 
 using namespace sediment;
 namespace kind = contract::kind;
-
-track::Recording recording_of(const Sequence& sequence, const DynamicMasksReader* masks) {
-  track::Recording recording;
-  recording.camera = sequence.camera();
-  for (std::size_t i = 0; i < sequence.size(); ++i) {
-    recording.stamps.push_back(sequence.entry(i).stamp);
-    recording.stamps_s.push_back(sequence.entry(i).stamp_s);
-    recording.depth_stamps_s.push_back(sequence.entry(i).depth_stamp_s);
-  }
-  recording.frame = [&sequence](std::size_t i) { return sequence.frame(i); };
-  recording.depth = [&sequence](std::size_t i) { return sequence.depth(i); };
-  if (masks)
-    recording.dynamic_mask = [&sequence, masks](std::size_t i) {
-      return masks->read(sequence.entry(i).stamp);
-    };
-  return recording;
-}
 
 track::Tracked poses_given(const track::Recording& recording, contract::Work& work, double max_gap_s) {
   if (!work.has("poses")) throw contract::UsageError("engine given needs --poses FILE");
@@ -79,7 +63,7 @@ int main(int argc, char** argv) {
     const Sequence sequence = Sequence::open(work.in("sequence"));
     std::optional<DynamicMasksReader> masks;
     if (work.has("dynamic")) masks.emplace(work.in("dynamic"));
-    const auto recording = recording_of(sequence, masks ? &*masks : nullptr);
+    const auto recording = track::recording_of(sequence, masks ? &*masks : nullptr);
     contract::Progress progress("track", sequence.size(), "frames");
     const auto result = parameters.engine == track::Engine::given
                             ? poses_given(recording, work, parameters.max_gap_s)
