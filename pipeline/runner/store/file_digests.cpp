@@ -51,12 +51,13 @@ void read_files(const std::vector<Unread>& files) {
 
 }  // namespace
 
-void FileDigests::add(const std::vector<fs::path>& files) {
+void FileDigests::add(const std::vector<std::string>& files) {
   std::vector<Unread> unread;
-  for (const fs::path& file : files) {
-    const auto [place, fresh] = known_.try_emplace(file.native());
+  known_.reserve(known_.size() + files.size());
+  for (const std::string& file : files) {
+    const auto [place, fresh] = known_.try_emplace(file);
     if (!fresh) continue;
-    const auto stat = stat_of(file);
+    const auto stat = stat_of(file.c_str());
     Known& known = place->second;
     known.digest = kMissing;
     if (!stat) continue;
@@ -74,8 +75,8 @@ void FileDigests::add(const std::vector<fs::path>& files) {
 }
 
 const FileDigests::Known& FileDigests::of(const fs::path& file) {
-  add({file});
-  return at(file);
+  add({file.native()});
+  return at(file.native());
 }
 
 }  // namespace sediment::runner

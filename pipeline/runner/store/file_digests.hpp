@@ -22,9 +22,9 @@ class FileDigests {
 
   /// Digests all these files, in parallel where they must be read. Throws std::runtime_error naming a file
   /// that cannot be read.
-  void add(const std::vector<std::filesystem::path>& files);
+  void add(const std::vector<std::string>& files);
   /// Of a file that was added.
-  const Known& at(const std::filesystem::path& file) const { return known_.at(file.native()); }
+  const Known& at(const std::string& file) const { return known_.at(file); }
   StatMemory& memory() { return memory_; }
   /// Adds one file.
   const Known& of(const std::filesystem::path& file);

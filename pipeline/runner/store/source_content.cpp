@@ -84,13 +84,17 @@ std::string list_id(const fs::path& root, const std::string& list, FileDigests& 
   const auto is_sealed = [&](const std::string& name) { return sealed.contains(name); };
   std::vector<std::string> names = images_in(root / list);
   names.push_back(list);
-  std::vector<fs::path> open;
+  // Paths as text: std::filesystem takes each apart, which costs more than asking the disk.
+  const auto path_of = [&](const std::string& name) {
+    return name.starts_with('/') ? name : root.native() + '/' + name;
+  };
+  std::vector<std::string> open;
   for (const std::string& name : names)
-    if (!is_sealed(name)) open.push_back(root / name);
+    if (!is_sealed(name)) open.push_back(path_of(name));
   digests.add(open);
   std::string text;
-  for (const std::string& name : names)
-    text += (is_sealed(name) ? sealed.at(name) : digests.at(root / name).digest) + '\n';
+  for (std::size_t i = 0, next = 0; i < names.size(); ++i)
+    text.append(is_sealed(names[i]) ? sealed.at(names[i]) : digests.at(open[next++]).digest) += '\n';
   return contract::digest_bytes(text);
 }
 
@@ -128,7 +132,7 @@ std::string folder_id(const fs::path& folder, FileDigests& digests) {
   }
   std::sort(files.begin(), files.end(),
             [](const fs::path& a, const fs::path& b) { return a.native() < b.native(); });
-  std::vector<fs::path> paths;
+  std::vector<std::string> paths;
   for (const fs::path& file : files) paths.push_back(folder / file);
   digests.add(paths);
   for (std::size_t i = 0; i < files.size(); ++i)

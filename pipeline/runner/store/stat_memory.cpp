@@ -53,9 +53,9 @@ FileStat file_stat(const struct stat& raw) {
   return {raw.st_dev, raw.st_ino, static_cast<std::uint64_t>(raw.st_size), ns(raw.st_mtim), ns(raw.st_ctim)};
 }
 
-std::optional<FileStat> stat_of(const fs::path& file) {
+std::optional<FileStat> stat_of(const char* file) {
   struct stat raw {};
-  if (stat(file.c_str(), &raw) != 0) return std::nullopt;
+  if (stat(file, &raw) != 0) return std::nullopt;
   return file_stat(raw);
 }
 

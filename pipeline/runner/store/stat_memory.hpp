@@ -20,7 +20,10 @@ struct FileStat {
 };
 
 /// Stat of a file (symbolic links followed); nothing if there is none.
-std::optional<FileStat> stat_of(const std::filesystem::path& file);
+std::optional<FileStat> stat_of(const char* file);
+inline std::optional<FileStat> stat_of(const std::filesystem::path& file) {
+  return stat_of(file.c_str());
+}
 FileStat file_stat(const struct stat& raw);
 
 /// Remembers what was derived from the content of a file for as long as the stat of the file stays the same:
