@@ -75,7 +75,7 @@ one_round() {
   pid=$!
   sleep "$(printf '%d.%03d' $((delay / 1000)) $((delay % 1000)))"
   strike "$pid" "$dir" "$who"
-  wait "$pid"
+  wait "$pid" 2>/dev/null
   [ -z "$(stages_of "$dir")" ] || { sleep 0.02; [ -z "$(stages_of "$dir")" ] || orphan=1; }
   start_run "$runner" "$dir"
   wait $! || ended=1
@@ -84,10 +84,10 @@ one_round() {
   start_run "$runner" "$dir"
   wait $! || ended=1
   local key=$runner.$who
-  ((orphans[$key] += orphan))
-  if [ $ended = 1 ]; then ((refused[$key] += 1))
-  elif [ "$(digests "$dir")" = "$reference" ]; then ((right[$key] += 1))
-  else ((wrong[$key] += 1)); fi
+  orphans[$key]=$((${orphans[$key]:-0} + orphan))
+  if [ $ended = 1 ]; then refused[$key]=$((${refused[$key]:-0} + 1))
+  elif [ "$(digests "$dir")" = "$reference" ]; then right[$key]=$((${right[$key]:-0} + 1))
+  else wrong[$key]=$((${wrong[$key]:-0} + 1)); fi
   rm -rf "${tmp:?}/$dir"
 }
 

@@ -70,13 +70,16 @@ std::string manifest_of(const std::string& name, const std::string& text) {
 
 /// It reads anything: the kind "file" stands for every kind.
 int describe(const std::string& name) {
-  std::printf(R"({"format":"sediment-stage 1","stage":"%s","version":"1","summary":"A line more",)"
-              R"("reads":[{"role":"text","kind":"file","optional":false,"help":"what to begin with"}],)"
-              R"("writes":[{"role":"text","kind":"cloud","optional":false,"help":"text.txt"}],)"
-              R"("parameters":[{"name":"number","type":"integer","default":0,"help":"a number",)"
-              R"("affects_result":true}]})"
-              "\n",
-              name.c_str());
+  std::printf(
+      R"({"format":"sediment-stage 1","stage":"%s","version":"1","summary":"A line more",)"
+      R"("reads":[{"role":"text","kind":"file","optional":false,"help":"what to begin with"}],)"
+      R"("writes":[{"role":"text","kind":"cloud","optional":false,"help":"text.txt"}],)"
+      R"("parameters":[{"name":"number","type":"integer","default":0,"help":"a number",)"
+      R"("affects_result":true},{"name":"kilobytes","type":"integer","default":0,"help":"of text",)"
+      R"("affects_result":true},{"name":"seconds","type":"number","default":0.0,"help":"that writing takes",)"
+      R"("affects_result":true}]})"
+      "\n",
+      name.c_str());
   return 0;
 }
 
