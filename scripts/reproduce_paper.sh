@@ -32,6 +32,7 @@ while [ $# -gt 0 ]; do
         -j) flags+=(-j "$2") ;;
       esac
       shift ;;
+    -j[0-9]*) flags+=("$1") ;;
     *) wrong_call "unknown argument $1" ;;
   esac
   shift

@@ -64,6 +64,7 @@ while [ $# -gt 0 ]; do
         --out) out=$(realpath -m "$2") ;;
       esac
       shift ;;
+    -j[0-9]*) flags+=("$1") ;;
     -*) wrong_call "unknown flag $1" ;;
     *) [ -z "$name" ] || wrong_call "two sequences: $name and $1"; name=$1 ;;
   esac

@@ -82,6 +82,7 @@ while [ $# -gt 0 ]; do
         *) flags+=("$1" "$2") ;;
       esac
       shift ;;
+    -j[0-9]*) flags+=("$1") ;;
     -*) wrong_call "unknown flag $1" ;;
     *) [ -z "$sweep" ] || wrong_call "two sweeps: $sweep and $1"; sweep=$1 ;;
   esac
