@@ -97,6 +97,7 @@ bool is_settled(const SensorTiming& before, const SensorTiming& after) {
 // still changed.
 SensorTiming settle_timing(const Recording& recording, const Parameters& parameters, const Pinhole& pinhole,
                            SensorTiming timing, Tracker& tracker) {
+  constexpr double kLongest_s = 1.0 / 30;
   for (int pass = 1; pass < parameters.passes; ++pass) {
     measure_again(recording, parameters, timing, true, tracker);
     match_again(tracker.map(), pinhole);
@@ -105,6 +106,9 @@ SensorTiming settle_timing(const Recording& recording, const Parameters& paramet
     // How fast depth changes is measured with noise itself, which makes the adjustment ask for half of the
     // lag.
     if (pass + 1 < parameters.passes) timing.depth_lag_s += timing.depth_lag_s - before.depth_lag_s;
+    // No camera takes longer than a frame: more is a mistake, which must not grow from pass to pass.
+    timing.readout_s = std::clamp(timing.readout_s, -kLongest_s, kLongest_s);
+    timing.depth_lag_s = std::clamp(timing.depth_lag_s, -kLongest_s, kLongest_s);
   }
   return timing;
 }
