@@ -1,15 +1,17 @@
 #include "stages/voxel/voxel_buckets.hpp"
 
+#include <sys/mman.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 namespace sediment::voxel {
 namespace {
 
 constexpr int kDigitBits = 12;
-constexpr std::size_t kBucketPoints = 1 << 13;  // 256 KiB of keyed points
+constexpr std::size_t kBucketPoints = 1 << 13;  // 192 KiB
 constexpr std::size_t kMostBuckets = 1024;      // open write streams
 constexpr std::size_t kLeastBlock = 1 << 15;
 constexpr std::size_t kMostBlocks = 64;
@@ -48,6 +50,16 @@ std::vector<std::uint32_t> bucket_of_digits(const std::vector<std::size_t>& poin
 
 }  // namespace
 
+PointBuffer::PointBuffer(std::size_t points) {
+  constexpr std::size_t kHugePage = std::size_t{1} << 21;
+  const std::size_t bytes = (points * sizeof(LabelledPoint) + kHugePage - 1) / kHugePage * kHugePage;
+  if (bytes == 0) return;
+  void* const memory = std::aligned_alloc(kHugePage, bytes);
+  if (memory == nullptr) throw std::bad_alloc();
+  madvise(memory, bytes, MADV_HUGEPAGE);  // a hint: without it all is the same, but slower
+  points_.reset(static_cast<LabelledPoint*>(memory));
+}
+
 Buckets part_into_buckets(const LabelledCloud& cloud, const VoxelKeys& keys) {
   const int digit_bits = std::min(kDigitBits, keys.bits()), shift = keys.bits() - digit_bits;
   const std::size_t digits = std::size_t{1} << digit_bits;
@@ -75,11 +87,11 @@ Buckets part_into_buckets(const LabelledCloud& cloud, const VoxelKeys& keys) {
   }
   buckets.begin.push_back(place);
 
-  buckets.points = std::make_unique_for_overwrite<KeyedPoint[]>(place);
+  buckets.points = PointBuffer(place);
   tbb::parallel_for(std::size_t{0}, blocks.count, [&](std::size_t block) {
     auto& own = places[block];
     for_each_key(cloud, keys, blocks, block, [&](std::uint64_t key, const LabelledPoint& point) {
-      buckets.points[own[bucket[key >> shift]]++] = {key, point};
+      buckets.points.data()[own[bucket[key >> shift]]++] = point;
     });
   });
   return buckets;

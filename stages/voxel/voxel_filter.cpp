@@ -59,16 +59,16 @@ std::uint8_t rounded_mean(std::uint64_t sum, double count) {
 }
 
 /// The points of one voxel, in the order of the cloud.
-LabelledPoint merge(std::span<const KeyedPoint> bucket, std::span<const std::uint32_t> indices,
+LabelledPoint merge(std::span<const LabelledPoint> bucket, std::span<const std::uint32_t> indices,
                     std::vector<std::uint32_t>& votes) {
-  const LabelledPoint& first = bucket[indices.front()].point;
+  const LabelledPoint& first = bucket[indices.front()];
   if (indices.size() == 1)
     return {first.x, first.y, first.z, first.b, first.g, first.r, 0, first.label, first.instance};
   double x = 0, y = 0, z = 0;
   std::uint64_t b = 0, g = 0, r = 0;
   bool agreed = true;
   for (const std::uint32_t idx : indices) {
-    const LabelledPoint& p = bucket[idx].point;
+    const LabelledPoint& p = bucket[idx];
     x += p.x;
     y += p.y;
     z += p.z;
@@ -89,11 +89,11 @@ LabelledPoint merge(std::span<const KeyedPoint> bucket, std::span<const std::uin
                        first.instance};
   if (agreed) return merged;
   votes.clear();
-  for (const std::uint32_t idx : indices) votes.push_back(bucket[idx].point.label);
+  for (const std::uint32_t idx : indices) votes.push_back(bucket[idx].label);
   merged.label = majority(votes);
   votes.clear();
   for (const std::uint32_t idx : indices)
-    if (bucket[idx].point.label == merged.label) votes.push_back(bucket[idx].point.instance);
+    if (bucket[idx].label == merged.label) votes.push_back(bucket[idx].instance);
   merged.instance = majority(votes);
   return merged;
 }
@@ -112,16 +112,17 @@ struct Merged {
 };
 
 /// Replaces the points of a bucket by one for each voxel, at its front: memory that is there already.
-Merged merge_bucket(std::span<KeyedPoint> bucket, std::size_t min_points, Workspace& work) {
+Merged merge_bucket(std::span<LabelledPoint> bucket, const VoxelKeys& keys, std::size_t min_points,
+                    Workspace& work) {
   const std::size_t size = bucket.size();
   work.keys.resize(size);
   work.indices.resize(size);
   // All keys of a bucket have their first digits in common: only what differs is sorted.
   std::uint64_t differing = 0;
   for (std::size_t i = 0; i < size; ++i) {
-    work.keys[i] = bucket[i].key;
+    work.keys[i] = keys.of(bucket[i]);
     work.indices[i] = static_cast<std::uint32_t>(i);
-    differing |= bucket[i].key ^ bucket[0].key;
+    differing |= work.keys[i] ^ work.keys[0];
   }
   sort_by_key(work.keys, work.indices, std::bit_width(differing));
   work.merged.clear();
@@ -133,7 +134,7 @@ Merged merge_bucket(std::span<KeyedPoint> bucket, std::size_t min_points, Worksp
       work.merged.push_back(merge(bucket, std::span(work.indices).subspan(begin, end - begin), work.votes));
   }
   merged.points = work.merged.size();
-  for (std::size_t i = 0; i < merged.points; ++i) bucket[i].point = work.merged[i];
+  for (std::size_t i = 0; i < merged.points; ++i) bucket[i] = work.merged[i];
   return merged;
 }
 
@@ -145,8 +146,8 @@ LabelledCloud filter(const LabelledCloud& cloud, const Parameters& parameters, S
   std::vector<Merged> merged(buckets.count());
   tbb::enumerable_thread_specific<Workspace> workspaces;
   tbb::parallel_for(std::size_t{0}, merged.size(), [&](std::size_t i) {
-    merged[i] =
-        merge_bucket(buckets.bucket(i), static_cast<std::size_t>(parameters.min_points), workspaces.local());
+    merged[i] = merge_bucket(buckets.bucket(i), keys, static_cast<std::size_t>(parameters.min_points),
+                             workspaces.local());
   });
 
   std::vector<std::size_t> begin(merged.size() + 1, 0);
@@ -159,8 +160,7 @@ LabelledCloud filter(const LabelledCloud& cloud, const Parameters& parameters, S
   LabelledCloud points(begin.back());
   tbb::parallel_for(std::size_t{0}, merged.size(), [&](std::size_t i) {
     const auto bucket = buckets.bucket(i).first(merged[i].points);
-    std::transform(bucket.begin(), bucket.end(), points.begin() + static_cast<std::ptrdiff_t>(begin[i]),
-                   [](const KeyedPoint& p) { return p.point; });
+    std::copy(bucket.begin(), bucket.end(), points.begin() + static_cast<std::ptrdiff_t>(begin[i]));
   });
   return points;
 }
