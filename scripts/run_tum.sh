@@ -15,7 +15,7 @@
 #   --model FILE         a YOLOv8-seg or YOLO11-seg network exported to ONNX
 #   --masks DIR          instance masks of your own instead of a network (formats: stages/segment/README.md)
 # how
-#   --pipeline PIPELINE  paper (default), full, baseline (without masks) or a YAML file
+#   --pipeline PIPELINE  full (default), paper (the paper's method, nothing more), baseline (without masks) or a YAML file
 #   --poses FILE         a camera trajectory of your own in TUM format instead of tracking
 #   --set STAGE.PARAM=V  a parameter, as often as you like; `build/release/bin/STAGE --help` names them
 #   -j N                 stages that may run at once
@@ -46,7 +46,7 @@ evaluate() {
   fi
 }
 
-name='' data='' camera='' pipeline=paper out='' model='' masks='' poses='' settings=() flags=()
+name='' data='' camera='' pipeline=full out='' model='' masks='' poses='' settings=() flags=()
 while [ $# -gt 0 ]; do
   case "$1" in
     -h | --help) sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "$0"; exit 0 ;;

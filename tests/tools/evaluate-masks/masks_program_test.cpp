@@ -18,7 +18,7 @@ std::string quoted(const std::filesystem::path& path) {
   return "'" + path.string() + "' ";
 }
 
-cv::Mat with_box(cv::Rect box, int type = CV_8UC1) {
+cv::Mat image_with_box(cv::Rect box, int type = CV_8UC1) {
   cv::Mat mask(48, 64, type, cv::Scalar(0));
   mask(box).setTo(1);
   return mask;
@@ -29,8 +29,8 @@ cv::Mat with_box(cv::Rect box, int type = CV_8UC1) {
 TEST_CASE("figures are printed as tables, as JSON and as a picture") {
   const test::TemporaryFolder folder;
   for (const char* stamp : {"1.25", "1.5"}) {
-    write_png(folder / "truth" / (std::string(stamp) + ".png"), with_box({0, 0, 20, 20}));
-    write_png(folder / "run" / "masks" / (std::string(stamp) + ".png"), with_box({10, 0, 20, 20}));
+    write_png(folder / "truth" / (std::string(stamp) + ".png"), image_with_box({0, 0, 20, 20}));
+    write_png(folder / "run" / "masks" / (std::string(stamp) + ".png"), image_with_box({10, 0, 20, 20}));
   }
   const std::string both = quoted(folder / "truth") + quoted(folder / "run");
   const auto text = test::run_program("evaluate-masks", both + "--plot " + quoted(folder / "p.png"));
@@ -50,7 +50,7 @@ TEST_CASE("true instances are compared with found ones") {
   const test::TemporaryFolder folder;
   for (const char* name : {"truth", "found"}) {
     MasksWriter writer(folder / name);
-    writer.write("1", {with_box({0, 0, 30, 30}, CV_16UC1), {{1, "person", 1, {}}}});
+    writer.write("1", {image_with_box({0, 0, 30, 30}, CV_16UC1), {{1, "person", 1, {}}}});
     writer.finish();
   }
   const std::string both = quoted(folder / "truth") + quoted(folder / "found");
@@ -58,7 +58,7 @@ TEST_CASE("true instances are compared with found ones") {
   CHECK(json["classes"]["person"]["mean_iou"] == 1.0);
   CHECK(json["classes"]["person"]["identity_switches"] == 0);
   CHECK_THAT(test::run_program("evaluate-masks", both).output, Contains("person"));
-  write_png(folder / "dynamic" / "1.png", with_box({0, 0, 30, 30}));
+  write_png(folder / "dynamic" / "1.png", image_with_box({0, 0, 30, 30}));
   CHECK(test::run_program("evaluate-masks", quoted(folder / "truth") + quoted(folder / "dynamic")).code == 2);
 }
 
