@@ -15,7 +15,7 @@ set -euo pipefail
 packages=(
   build-essential cmake ninja-build ccache git ca-certificates curl
   libopencv-dev libpcl-dev liboctomap-dev libeigen3-dev libceres-dev libyaml-cpp-dev libtbb-dev
-  nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev
+  nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev libdeflate-dev
   catch2 libbenchmark-dev clang-format clang-tidy shellcheck
   slurm-wlm munge  # for the test of --backend slurm, which starts a Slurm of its own
 )

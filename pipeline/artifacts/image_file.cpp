@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/artifacts/file_bytes.hpp"
+#include "pipeline/artifacts/png_encoder.hpp"
 
 namespace sediment {
 namespace {
@@ -129,13 +130,7 @@ void write_png(const std::filesystem::path& file, const cv::Mat& image) {
   if (image.empty() || (image.type() != CV_8UC1 && image.type() != CV_8UC3 && image.type() != CV_16UC1))
     throw std::runtime_error("cannot write " + file.string() +
                              ": only images of 8 bit grey, 8 bit BGR or 16 bit grey can be written");
-  // Without a compression level OpenCV takes the fastest one and one row filter: choosing among all filters
-  // costs twice the rest and saves little.
-  const int strategy =
-      image.depth() == CV_8U ? cv::IMWRITE_PNG_STRATEGY_RLE : cv::IMWRITE_PNG_STRATEGY_DEFAULT;
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_STRATEGY, strategy});
-  write_bytes(file, {{reinterpret_cast<const char*>(bytes.data()), bytes.size()}});
+  write_bytes(file, {png_of(image)});
 }
 
 }  // namespace sediment
