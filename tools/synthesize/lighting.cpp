@@ -60,19 +60,29 @@ void Lighting::light_air(const Scene& scene) {
   probes_ = gather_all_round(scene, points);
 }
 
-Rgb Lighting::on_face(int fixed_idx, int face, float u_m, float v_m) const {
-  const Map& map = maps_[static_cast<std::size_t>(first_map_[static_cast<std::size_t>(fixed_idx)] + face)];
-  const float u = std::clamp(u_m * map.cells_per_m_u - 0.5f, 0.f, static_cast<float>(map.columns - 1));
-  const float v =
-      std::clamp((v_m + map.shift_v_m) * map.cells_per_m_v - 0.5f, 0.f, static_cast<float>(map.rows - 1));
+inline Rgb Lighting::Map::at(float u_m, float v_m) const {
+  const float u = std::clamp(u_m * cells_per_m_u - 0.5f, 0.f, static_cast<float>(columns - 1));
+  const float v = std::clamp((v_m + shift_v_m) * cells_per_m_v - 0.5f, 0.f, static_cast<float>(rows - 1));
   const int left = static_cast<int>(u), top = static_cast<int>(v);
-  const int right = std::min(left + 1, map.columns - 1), bottom = std::min(top + 1, map.rows - 1);
+  const int right = std::min(left + 1, columns - 1), bottom = std::min(top + 1, rows - 1);
   const float fu = u - static_cast<float>(left), fv = v - static_cast<float>(top);
-  const auto at = [&](int row, int column) {
-    return map.light[static_cast<std::size_t>(row) * map.columns + column];
+  const auto cell = [&](int row, int column) {
+    return light[static_cast<std::size_t>(row) * columns + column];
   };
-  return (1 - fv) * ((1 - fu) * at(top, left) + fu * at(top, right)) +
-         fv * ((1 - fu) * at(bottom, left) + fu * at(bottom, right));
+  return (1 - fv) * ((1 - fu) * cell(top, left) + fu * cell(top, right)) +
+         fv * ((1 - fu) * cell(bottom, left) + fu * cell(bottom, right));
+}
+
+Rgb Lighting::on_face(int fixed_idx, int face, float u_m, float v_m) const {
+  return map_of(fixed_idx, face).at(u_m, v_m);
+}
+
+void Lighting::on_face(int fixed_idx, int face, const Places& places, Colors& light) const {
+  const Map& map = map_of(fixed_idx, face);
+  for (int i = 0; i < places.count; ++i) {
+    const Rgb here = map.at(places.u_m[i], places.v_m[i]);
+    light.r[i] = here.r, light.g[i] = here.g, light.b[i] = here.b;
+  }
 }
 
 LightCube Lighting::in_air(Vec3 point) const {

@@ -21,6 +21,7 @@ class Lighting {
 
   /// Factor on the colour of a place on a fixed solid (index as PlacedSolid::fixed_idx).
   Rgb on_face(int fixed_idx, int face, float u_m, float v_m) const;
+  void on_face(int fixed_idx, int face, const Places& places, Colors& light) const;
   /// The same anywhere in the room.
   LightCube in_air(Vec3 point) const;
 
@@ -29,7 +30,12 @@ class Lighting {
     int columns = 1, rows = 1;
     float cells_per_m_u = 0, cells_per_m_v = 0, shift_v_m = 0;
     std::vector<Rgb> light;
+
+    Rgb at(float u_m, float v_m) const;
   };
+  const Map& map_of(int fixed_idx, int face) const {
+    return maps_[static_cast<std::size_t>(first_map_[static_cast<std::size_t>(fixed_idx)] + face)];
+  }
 
   void light_faces(const Scene& scene, double lumel_m);
   void light_air(const Scene& scene);

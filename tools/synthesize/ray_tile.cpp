@@ -3,22 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/synthesize/vector_code.hpp"
+
 namespace sediment::synthetic {
 namespace {
 
 constexpr float kNear = 1e-3f;
 
-// The loops below have no branches, so that the compiler makes vector code of them. Contraction to fused
-// multiply-add is off in the whole project: all clones give the same bits.
-#define SEDIMENT_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
-#define SEDIMENT_INLINE inline __attribute__((always_inline))
-
-SEDIMENT_INLINE float lesser(float a, float b) {
-  return a < b ? a : b;
-}
-SEDIMENT_INLINE float greater(float a, float b) {
-  return a > b ? a : b;
-}
 // A direction parallel to a face must not divide by zero.
 SEDIMENT_INLINE float reciprocal(float d) {
   return 1.f / (std::fabs(d) < 1e-12f ? 1e-12f : d);

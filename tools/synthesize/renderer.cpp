@@ -64,7 +64,7 @@ cv::Rect Renderer::area_of(int tile_idx) const {
   return {left, top, std::min(kTile, camera_.width - left), std::min(kTile, camera_.height - top)};
 }
 
-void Renderer::find_hits(Work& work, int tile_idx) const {
+void Renderer::paint(Work& work, int tile_idx) const {
   auto& candidates = work.candidates[static_cast<std::size_t>(tile_idx)];
   for (const int i : work.nearest_first)
     if (work.view.solids[static_cast<std::size_t>(i)].reach.rays.meets(
@@ -82,25 +82,18 @@ void Renderer::find_hits(Work& work, int tile_idx) const {
     tile.x[i] = ray.x, tile.y[i] = ray.y;
   }
   cast_all(candidates, work.view.solids, tile);
+  Shades shades;
+  shade(work.view, tile, kTile * area.height, shades);
   for (int y = 0; y < area.height; ++y)
     for (int x = 0; x < area.width; ++x) {
-      const int i = y * kTile + x;
-      work.image.solid.at<int>(area.y + y, area.x + x) = tile.solid[i];
-      work.image.depth_m.at<float>(area.y + y, area.x + x) = tile.solid[i] < 0 ? 0 : tile.depth_m[i];
-    }
-}
-
-void Renderer::paint(Work& work, int tile_idx) const {
-  const cv::Rect area = area_of(tile_idx);
-  for (int v = area.y; v < area.br().y; ++v)
-    for (int u = area.x; u < area.br().x; ++u) {
-      const int solid_idx = work.image.solid.at<int>(v, u);
-      if (solid_idx < 0) continue;
-      const Ray& ray = rays_[static_cast<std::size_t>(v) * camera_.width + u];
-      const Shade s = shade(work.view, solid_idx, ray.x, ray.y, work.image.depth_m.at<float>(v, u));
-      work.image.color.at<cv::Vec3b>(v, u) = pixel_of(s.color);
-      work.image.face.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(s.face);
-      work.image.place.at<cv::Vec2f>(v, u) = {s.u_m, s.v_m};
+      const int i = y * kTile + x, u = area.x + x, v = area.y + y;
+      work.image.solid.at<int>(v, u) = tile.solid[i];
+      work.image.depth_m.at<float>(v, u) = tile.solid[i] < 0 ? 0 : tile.depth_m[i];
+      if (tile.solid[i] < 0) continue;
+      work.image.color.at<cv::Vec3b>(v, u) =
+          pixel_of({shades.color.r[i], shades.color.g[i], shades.color.b[i]});
+      work.image.face.at<std::uint8_t>(v, u) = shades.face[i];
+      work.image.place.at<cv::Vec2f>(v, u) = {shades.u_m[i], shades.v_m[i]};
     }
 }
 
@@ -131,6 +124,7 @@ void Renderer::smooth_edges(Work& work, int tile_idx) const {
       {-0.125, -0.375}, {0.375, -0.125}, {-0.375, 0.125}, {0.125, 0.375}};
   const std::vector<int> pixels = edge_pixels(work, tile_idx);
   RayTile tile;
+  Shades shades;
   for (std::size_t first = 0; first < pixels.size(); first += kBatch) {
     const int count = static_cast<int>(std::min<std::size_t>(kBatch, pixels.size() - first));
     tile.depth_m.fill(kFar);
@@ -143,11 +137,11 @@ void Renderer::smooth_edges(Work& work, int tile_idx) const {
       tile.x[i] = static_cast<float>(ray.u), tile.y[i] = static_cast<float>(ray.v);
     }
     cast_all(work.candidates[static_cast<std::size_t>(tile_idx)], work.view.solids, tile);
+    shade(work.view, tile, kSamples * count, shades);
     for (int i = 0; i < count; ++i) {
       Rgb sum;
       for (int s = kSamples * i; s < kSamples * (i + 1); ++s)
-        if (tile.solid[s] >= 0)
-          sum = sum + shade(work.view, tile.solid[s], tile.x[s], tile.y[s], tile.depth_m[s]).color;
+        if (tile.solid[s] >= 0) sum = sum + Rgb{shades.color.r[s], shades.color.g[s], shades.color.b[s]};
       const int pixel = pixels[first + static_cast<std::size_t>(i)];
       work.image.color.at<cv::Vec3b>(pixel / camera_.width, pixel % camera_.width) =
           pixel_of((1.f / kSamples) * sum);
@@ -169,7 +163,6 @@ Rendering Renderer::render(const Scene& scene, const Lighting& lighting, const M
   });
   const int tiles = tiles_across_ * tiles_down_;
   work.candidates.resize(static_cast<std::size_t>(tiles));
-  tbb::parallel_for(0, tiles, [&](int tile) { find_hits(work, tile); });
   tbb::parallel_for(0, tiles, [&](int tile) { paint(work, tile); });
   tbb::parallel_for(0, tiles, [&](int tile) { smooth_edges(work, tile); });
   return std::move(work.image);

@@ -28,7 +28,6 @@ class Renderer {
 
  private:
   struct Work;
-  void find_hits(Work& work, int tile_idx) const;
   void paint(Work& work, int tile_idx) const;
   std::vector<int> edge_pixels(const Work& work, int tile_idx) const;
   void smooth_edges(Work& work, int tile_idx) const;

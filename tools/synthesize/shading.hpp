@@ -4,14 +4,9 @@
 
 #include "tools/synthesize/lighting.hpp"
 #include "tools/synthesize/ray_tile.hpp"
+#include "tools/synthesize/surface_hits.hpp"
 
 namespace sediment::synthetic {
-
-/// A flat face as the camera sees it, in the camera frame: a point p on it has u = dot(p, u_axis) + u_shift.
-struct FaceView {
-  std::array<float, 3> normal, u_axis, v_axis;
-  float u_shift = 0, v_shift = 0;
-};
 
 /// A solid as the camera sees it at one time.
 struct SolidView {
@@ -35,15 +30,13 @@ struct View {
 View view_of(const Scene& scene, const Lighting& lighting, const Moment& moment,
              const Pose& world_from_camera, double pixel_angle);
 
-/// A hit of a ray, ready to be shown.
-struct Shade {
-  Rgb color;
-  int face = 0;
-  float u_m = 0, v_m = 0;
+/// What the rays of a tile show, where they hit something.
+struct Shades {
+  Colors color;
+  std::array<std::uint8_t, RayTile::kRays> face;
+  std::array<float, RayTile::kRays> u_m, v_m;
 };
-
-/// Colour of the place where the ray (x, y, 1) of the camera meets a solid (index into moment.solids) at
-/// `depth_m`.
-Shade shade(const View& view, int solid_idx, float x, float y, float depth_m);
+/// Colour and place of the hits of the tile's first `count` rays.
+void shade(const View& view, const RayTile& tile, int count, Shades& shades);
 
 }  // namespace sediment::synthetic

@@ -31,6 +31,19 @@ struct Footprint {
   float du_dx = 0, dv_dx = 0, du_dy = 0, dv_dy = 0;
 };
 
+/// Places on one surface with their footprints, one array a quantity: what handles them is vector code.
+struct Places {
+  static constexpr std::size_t kMost = 256;
+  using Values = std::array<float, kMost>;
+  alignas(64) Values u_m, v_m;
+  alignas(64) Values du_dx, dv_dx, du_dy, dv_dy;
+  int count = 0;
+};
+/// Colours of up to as many places.
+struct Colors {
+  alignas(64) Places::Values r, g, b;
+};
+
 /// A pattern and the surface that it is for.
 struct Sheet {
   Pattern pattern;
@@ -46,18 +59,16 @@ class Texture {
   explicit Texture(const Sheet& sheet);
 
   /// Trilinear, with up to four probes along the footprint's longer axis.
+  void sample(const Places& places, Colors& colors) const;
   Rgb sample(float u_m, float v_m, const Footprint& footprint) const;
 
- private:
-  using Texel = std::array<std::uint8_t, 4>;  ///< r g b 0
+  /// A texel is r + 256 g + 65536 b.
   struct Level {
     int width, height;
-    std::vector<Texel> texels;
-
-    const Texel& at(int row, int column) const {
-      return texels[static_cast<std::size_t>(row) * width + column];
-    }
+    std::vector<std::uint32_t> texels;
   };
+
+ private:
   static Level halved(const Level& fine);
 
   std::vector<Level> levels_;
