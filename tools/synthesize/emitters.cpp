@@ -48,7 +48,6 @@ std::vector<Viewpoint> viewpoints_of(const Scene& scene) {
 template <class Arrived>
 void shine(const Viewpoint& view, std::span<const Vec3> places, const Arrived& arrived) {
   RayTile tile;
-  RayBounds bounds;
   std::array<Vec3, RayTile::kRays> local{};
   for (std::size_t i = 0; i < RayTile::kRays; ++i) {
     local[i] = view.emitter_from_world * places[std::min(i, places.size() - 1)];
@@ -56,11 +55,11 @@ void shine(const Viewpoint& view, std::span<const Vec3> places, const Arrived& a
     const bool ahead = local[i].z > 1e-3;
     tile.x[i] = ahead ? static_cast<float>(local[i].x / local[i].z) : 0;
     tile.y[i] = ahead ? static_cast<float>(local[i].y / local[i].z) : 0;
-    tile.depth_m[i] = kFar, tile.solid[i] = -1;
-    if (ahead) bounds.include(tile.x[i], tile.y[i]);
+    tile.depth_m[i] = ahead ? static_cast<float>(local[i].z) : 0;
   }
+  tile.start_before_depth(static_cast<int>(places.size()));
   for (std::size_t k = 0; k < view.targets.size(); ++k)
-    if (view.reaches[k].rays.meets(bounds)) cast(view.targets[k], static_cast<std::int32_t>(k), tile);
+    cast(view.targets[k], view.reaches[k], static_cast<std::int32_t>(k), tile);
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (local[i].z < 1e-3 || tile.depth_m[i] < 0.995f * static_cast<float>(local[i].z) - 0.004f) continue;
     const Vec3 to_emitter = view.emitter.position - places[i];

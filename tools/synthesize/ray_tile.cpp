@@ -23,6 +23,23 @@ SEDIMENT_INLINE void keep(RayTile& tile, int i, float t, std::int32_t solid_idx)
   tile.solid[i] = nearer ? solid_idx : tile.solid[i];
 }
 
+/// Indices of blocks of rays.
+struct Blocks {
+  std::array<std::uint8_t, RayTile::kBlocks> idx;
+  int count = 0;
+};
+
+template <class Work>
+SEDIMENT_INLINE void for_each_ray(const Blocks& blocks, RayTile& tile, const Work& work) {
+  for (int k = 0; k < blocks.count; ++k) {
+    const int block = blocks.idx[static_cast<std::size_t>(k)], first = block * RayTile::kBlock;
+    for (int i = first; i < first + RayTile::kBlock; ++i) work(i);
+    float farthest = 0;
+    for (int i = first; i < first + RayTile::kBlock; ++i) farthest = greater(farthest, tile.depth_m[i]);
+    tile.block_depth_m[static_cast<std::size_t>(block)] = farthest;
+  }
+}
+
 struct Direction {
   float x, y, z;
 };
@@ -31,8 +48,9 @@ SEDIMENT_INLINE Direction direction_of(const Target& s, float x, float y) {
           s.linear[6] * x + s.linear[7] * y + s.linear[8]};
 }
 
-SEDIMENT_CLONES void cast_box(const Target& s, std::int32_t solid_idx, RayTile& tile) {
-  for (int i = 0; i < RayTile::kRays; ++i) {
+SEDIMENT_CLONES void cast_box(const Target& target, std::int32_t solid_idx, const Blocks& blocks, RayTile& tile) {
+  const Target s = target;  // a copy: what is written to the tile cannot change it
+  for_each_ray(blocks, tile, [&](int i) {
     const Direction d = direction_of(s, tile.x[i], tile.y[i]);
     const float ix = reciprocal(d.x), iy = reciprocal(d.y), iz = reciprocal(d.z);
     const float x0 = (-1 - s.origin[0]) * ix, x1 = (1 - s.origin[0]) * ix;
@@ -41,7 +59,7 @@ SEDIMENT_CLONES void cast_box(const Target& s, std::int32_t solid_idx, RayTile& 
     const float enter = greater(greater(lesser(x0, x1), lesser(y0, y1)), lesser(z0, z1));
     const float leave = lesser(lesser(greater(x0, x1), greater(y0, y1)), greater(z0, z1));
     keep(tile, i, accept(enter <= leave, enter), solid_idx);
-  }
+  });
 }
 
 // Entry into a ball around (0, 0, centre_z).
@@ -56,13 +74,14 @@ SEDIMENT_INLINE float enter_ball(const Target& s, const Direction& d, float cent
 
 // The hull of two balls is convex, so its entry is the first of the entries into the balls and the hits of
 // the cone that touches both: rho * cosine + z * slope = r0 for z in [r0 * slope, length + r1 * slope].
-SEDIMENT_CLONES void cast_capsule(const Target& s, std::int32_t solid_idx, RayTile& tile) {
+SEDIMENT_CLONES void cast_capsule(const Target& target, std::int32_t solid_idx, const Blocks& blocks, RayTile& tile) {
+  const Target s = target;  // a copy: what is written to the tile cannot change it
   const float r0 = s.size[0], r1 = s.size[1], length = s.size[2];
   const float slope = (r0 - r1) / length, cosine2 = 1 - slope * slope;
   const float low = r0 * slope, high = length + r1 * slope;
   const float rest = r0 - slope * s.origin[2];
   const float c = s.origin[0] * s.origin[0] + s.origin[1] * s.origin[1] - rest * rest / cosine2;
-  for (int i = 0; i < RayTile::kRays; ++i) {
+  for_each_ray(blocks, tile, [&](int i) {
     const Direction d = direction_of(s, tile.x[i], tile.y[i]);
     const float a = d.x * d.x + d.y * d.y - slope * slope * d.z * d.z / cosine2;
     const float b = s.origin[0] * d.x + s.origin[1] * d.y + rest * slope * d.z / cosine2;
@@ -73,13 +92,14 @@ SEDIMENT_CLONES void cast_capsule(const Target& s, std::int32_t solid_idx, RayTi
     const float cone = lesser(accept((discriminant >= 0) & (z0 >= low) & (z0 <= high), t0),
                               accept((discriminant >= 0) & (z1 >= low) & (z1 <= high), t1));
     keep(tile, i, lesser(cone, lesser(enter_ball(s, d, 0, r0), enter_ball(s, d, length, r1))), solid_idx);
-  }
+  });
 }
 
-SEDIMENT_CLONES void cast_cylinder(const Target& s, std::int32_t solid_idx, RayTile& tile) {
+SEDIMENT_CLONES void cast_cylinder(const Target& target, std::int32_t solid_idx, const Blocks& blocks, RayTile& tile) {
+  const Target s = target;  // a copy: what is written to the tile cannot change it
   const float radius = s.size[0], length = s.size[2];
   const float c = s.origin[0] * s.origin[0] + s.origin[1] * s.origin[1] - radius * radius;
-  for (int i = 0; i < RayTile::kRays; ++i) {
+  for_each_ray(blocks, tile, [&](int i) {
     const Direction d = direction_of(s, tile.x[i], tile.y[i]);
     const float a = greater(d.x * d.x + d.y * d.y, 1e-12f);
     const float b = s.origin[0] * d.x + s.origin[1] * d.y;
@@ -90,7 +110,7 @@ SEDIMENT_CLONES void cast_cylinder(const Target& s, std::int32_t solid_idx, RayT
     const float enter = greater((-b - root) / a, lesser(cap0, cap1));
     const float leave = lesser((-b + root) / a, greater(cap0, cap1));
     keep(tile, i, accept((discriminant >= 0) & (enter <= leave), enter), solid_idx);
-  }
+  });
 }
 
 }  // namespace
@@ -111,14 +131,43 @@ Target target_of(const Solid& solid, const Pose& camera_from_solid) {
   return target;
 }
 
-void cast(const Target& target, std::int32_t solid_idx, RayTile& tile) {
+void RayTile::start(int count) {
+  depth_m.fill(kFar);
+  start_before_depth(count);
+}
+
+void RayTile::start_before_depth(int count) {
+  constexpr float kRounding = 1e-5f;  // hundredths of a pixel
+  solid.fill(-1);
+  block_depth_m.fill(-1);  // before everything
+  block_rays.fill({});
+  for (int block = 0; block * kBlock < count; ++block) {
+    RayBounds bounds;
+    float farthest = 0;
+    for (int i = block * kBlock; i < (block + 1) * kBlock; ++i) {
+      bounds.include(x[i], y[i]);
+      farthest = greater(farthest, depth_m[i]);
+    }
+    block_rays[block] = {bounds.x_low - kRounding, bounds.x_high + kRounding, bounds.y_low - kRounding,
+                         bounds.y_high + kRounding};
+    block_depth_m[block] = farthest;
+  }
+}
+
+void cast(const Target& target, const Reach& reach, std::int32_t solid_idx, RayTile& tile) {
+  const float nearest_m = 0.9999f * reach.nearest_m - 1e-4f;  // rounding
+  Blocks blocks;
+  for (int block = 0; block < RayTile::kBlocks; ++block)
+    if (nearest_m <= tile.block_depth_m[block] && tile.block_rays[block].meets(reach.rays))
+      blocks.idx[blocks.count++] = static_cast<std::uint8_t>(block);
+  if (blocks.count == 0) return;
   switch (target.shape) {
     case Shape::box:
-      return cast_box(target, solid_idx, tile);
+      return cast_box(target, solid_idx, blocks, tile);
     case Shape::capsule:
-      return cast_capsule(target, solid_idx, tile);
+      return cast_capsule(target, solid_idx, blocks, tile);
     case Shape::cylinder:
-      return cast_cylinder(target, solid_idx, tile);
+      return cast_cylinder(target, solid_idx, blocks, tile);
   }
 }
 

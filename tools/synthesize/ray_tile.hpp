@@ -43,13 +43,26 @@ Reach reach_of(const Solid& solid, const Pose& camera_from_solid);
 /// Rays of up to 256 pixels, cast together. Because a ray is (x, y, 1) in the camera frame, the distance
 /// along it is the depth along the optical axis.
 struct RayTile {
-  static constexpr int kRays = 256;
+  static constexpr int kRays = 256, kBlock = 16, kBlocks = kRays / kBlock;
   alignas(64) std::array<float, kRays> x, y;          ///< direction
   alignas(64) std::array<float, kRays> depth_m;       ///< nearest hit so far
   alignas(64) std::array<std::int32_t, kRays> solid;  ///< its solid, -1 = none
+
+  /// To be called when the directions are there: nothing is hit yet. Rays from `count` on are not cast, but for
+  /// those that fill up the last 16.
+  void start(int count = kRays);
+  /// The same; what is not nearer than `depth_m` is no hit.
+  void start_before_depth(int count = kRays);
+  /// No hit, or none yet, is beyond.
+  float farthest_m() const { return *std::max_element(block_depth_m.begin(), block_depth_m.end()); }
+
+  // Of every 16 rays, which are near each other: bounds a little too wide, and the farthest hit.
+  std::array<RayBounds, kBlocks> block_rays;
+  std::array<float, kBlocks> block_depth_m;
 };
 
-/// Keeps for each ray the nearer of its hit so far and its first hit with `target`.
-void cast(const Target& target, std::int32_t solid_idx, RayTile& tile);
+/// Keeps for each ray the nearer of its hit so far and its first hit with `target`. Rays that `reach` leaves
+/// out are passed over.
+void cast(const Target& target, const Reach& reach, std::int32_t solid_idx, RayTile& tile);
 
 }  // namespace sediment::synthetic

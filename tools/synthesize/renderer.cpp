@@ -22,12 +22,10 @@ cv::Vec3b pixel_of(const Rgb& c) {
 
 /// Casts at the candidates (nearest first) until the rest is behind everything that was hit.
 void cast_all(const std::vector<int>& candidates, const std::vector<SolidView>& solids, RayTile& tile) {
-  float farthest = kFar;
   for (const int solid_idx : candidates) {
     const SolidView& solid = solids[static_cast<std::size_t>(solid_idx)];
-    if (solid.reach.nearest_m > farthest) break;
-    cast(solid.target, solid_idx, tile);
-    farthest = *std::max_element(tile.depth_m.begin(), tile.depth_m.end());
+    if (solid.reach.nearest_m > tile.farthest_m()) break;
+    cast(solid.target, solid.reach, solid_idx, tile);
   }
 }
 
@@ -72,8 +70,6 @@ void Renderer::paint(Work& work, int tile_idx) const {
       candidates.push_back(i);
   const cv::Rect area = area_of(tile_idx);
   RayTile tile;
-  tile.depth_m.fill(kFar);
-  tile.solid.fill(-1);
   for (int i = 0; i < RayTile::kRays; ++i) {
     // Rays beyond the image's border repeat the last one.
     const int u = area.x + std::min(i % kTile, area.width - 1),
@@ -81,6 +77,7 @@ void Renderer::paint(Work& work, int tile_idx) const {
     const Ray& ray = rays_[static_cast<std::size_t>(v) * camera_.width + u];
     tile.x[i] = ray.x, tile.y[i] = ray.y;
   }
+  tile.start();
   cast_all(candidates, work.view.solids, tile);
   Shades shades;
   shade(work.view, tile, kTile * area.height, shades);
@@ -127,8 +124,6 @@ void Renderer::smooth_edges(Work& work, int tile_idx) const {
   Shades shades;
   for (std::size_t first = 0; first < pixels.size(); first += kBatch) {
     const int count = static_cast<int>(std::min<std::size_t>(kBatch, pixels.size() - first));
-    tile.depth_m.fill(kFar);
-    tile.solid.fill(-1);
     for (int i = 0; i < RayTile::kRays; ++i) {
       const int pixel = pixels[first + static_cast<std::size_t>(std::min(i / kSamples, count - 1))];
       const double* offset = kOffset[i % kSamples];
@@ -136,6 +131,7 @@ void Renderer::smooth_edges(Work& work, int tile_idx) const {
           camera_.undistort({pixel % camera_.width + offset[0], pixel / camera_.width + offset[1]});
       tile.x[i] = static_cast<float>(ray.u), tile.y[i] = static_cast<float>(ray.v);
     }
+    tile.start(kSamples * count);
     cast_all(work.candidates[static_cast<std::size_t>(tile_idx)], work.view.solids, tile);
     shade(work.view, tile, kSamples * count, shades);
     for (int i = 0; i < count; ++i) {

@@ -17,8 +17,8 @@ RayTile tile_towards(float x_from, float x_to) {
   for (int i = 0; i < RayTile::kRays; ++i) {
     tile.x[i] = x_from + (x_to - x_from) * static_cast<float>(i % 16) / 15;
     tile.y[i] = x_from + (x_to - x_from) * static_cast<float>(i / 16) / 15;
-    tile.depth_m[i] = kFar, tile.solid[i] = -1;
   }
+  tile.start();
   return tile;
 }
 
@@ -55,7 +55,7 @@ Solid some_solid(Random& random, Shape shape) {
 TEST_CASE("a ray meets a box that faces the camera at its distance") {
   RayTile tile = tile_towards(-0.05f, 0.05f);
   const Solid solid = box({0, 0, 3}, {1, 1, 2}, 0);
-  cast(target_of(solid, solid.body_from_solid), 4, tile);
+  cast(target_of(solid, solid.body_from_solid), reach_of(solid, solid.body_from_solid), 4, tile);
   for (int i = 0; i < RayTile::kRays; ++i) {
     CHECK(tile.depth_m[i] == Approx(2).epsilon(1e-6));
     CHECK(tile.solid[i] == 4);
@@ -68,7 +68,7 @@ TEST_CASE("hits lie on the surface and nothing of the solid is before them") {
     for (int round = 0; round < 12; ++round) {
       const Solid solid = some_solid(random, shape);
       RayTile tile = tile_towards(-0.4f, 0.4f);
-      cast(target_of(solid, solid.body_from_solid), 0, tile);
+      cast(target_of(solid, solid.body_from_solid), reach_of(solid, solid.body_from_solid), 0, tile);
       const Pose solid_from_camera = solid.body_from_solid.inverse();
       CHECK(std::count(tile.solid.begin(), tile.solid.end(), 0) > 0);
       for (int i = 0; i < RayTile::kRays; i += 5) {
@@ -110,6 +110,7 @@ TEST_CASE("the place on a surface and its point are each other's inverse, with t
 }
 
 TEST_CASE("no ray outside a solid's reach meets it") {
+  const Reach everywhere{{-kFar, kFar, -kFar, kFar}, 0};
   Random random(8);
   for (const Shape shape : {Shape::box, Shape::capsule, Shape::cylinder})
     for (int round = 0; round < 100; ++round) {
@@ -117,7 +118,7 @@ TEST_CASE("no ray outside a solid's reach meets it") {
       solid.body_from_solid.translation.z = random.uniform(0.2, 2);  // some reach behind the camera
       const Reach reach = reach_of(solid, solid.body_from_solid);
       RayTile tile = tile_towards(-1.5f, 1.5f);
-      cast(target_of(solid, solid.body_from_solid), 0, tile);
+      cast(target_of(solid, solid.body_from_solid), everywhere, 0, tile);
       for (int i = 0; i < RayTile::kRays; ++i) {
         if (tile.solid[i] < 0) continue;
         RayBounds ray;
