@@ -48,7 +48,8 @@ SEDIMENT_INLINE Direction direction_of(const Target& s, float x, float y) {
           s.linear[6] * x + s.linear[7] * y + s.linear[8]};
 }
 
-SEDIMENT_CLONES void cast_box(const Target& target, std::int32_t solid_idx, const Blocks& blocks, RayTile& tile) {
+SEDIMENT_CLONES void cast_box(const Target& target, std::int32_t solid_idx, const Blocks& blocks,
+                              RayTile& tile) {
   const Target s = target;  // a copy: what is written to the tile cannot change it
   for_each_ray(blocks, tile, [&](int i) {
     const Direction d = direction_of(s, tile.x[i], tile.y[i]);
@@ -74,7 +75,8 @@ SEDIMENT_INLINE float enter_ball(const Target& s, const Direction& d, float cent
 
 // The hull of two balls is convex, so its entry is the first of the entries into the balls and the hits of
 // the cone that touches both: rho * cosine + z * slope = r0 for z in [r0 * slope, length + r1 * slope].
-SEDIMENT_CLONES void cast_capsule(const Target& target, std::int32_t solid_idx, const Blocks& blocks, RayTile& tile) {
+SEDIMENT_CLONES void cast_capsule(const Target& target, std::int32_t solid_idx, const Blocks& blocks,
+                                  RayTile& tile) {
   const Target s = target;  // a copy: what is written to the tile cannot change it
   const float r0 = s.size[0], r1 = s.size[1], length = s.size[2];
   const float slope = (r0 - r1) / length, cosine2 = 1 - slope * slope;
@@ -95,7 +97,8 @@ SEDIMENT_CLONES void cast_capsule(const Target& target, std::int32_t solid_idx, 
   });
 }
 
-SEDIMENT_CLONES void cast_cylinder(const Target& target, std::int32_t solid_idx, const Blocks& blocks, RayTile& tile) {
+SEDIMENT_CLONES void cast_cylinder(const Target& target, std::int32_t solid_idx, const Blocks& blocks,
+                                   RayTile& tile) {
   const Target s = target;  // a copy: what is written to the tile cannot change it
   const float radius = s.size[0], length = s.size[2];
   const float c = s.origin[0] * s.origin[0] + s.origin[1] * s.origin[1] - radius * radius;

@@ -48,8 +48,8 @@ struct RayTile {
   alignas(64) std::array<float, kRays> depth_m;       ///< nearest hit so far
   alignas(64) std::array<std::int32_t, kRays> solid;  ///< its solid, -1 = none
 
-  /// To be called when the directions are there: nothing is hit yet. Rays from `count` on are not cast, but for
-  /// those that fill up the last 16.
+  /// To be called when the directions are there: nothing is hit yet. Rays from `count` on are not cast, but
+  /// for those that fill up the last 16.
   void start(int count = kRays);
   /// The same; what is not nearer than `depth_m` is no hit.
   void start_before_depth(int count = kRays);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <stdexcept>
+#include <vector>
 
 #include "tools/synthesize/color_sensor.hpp"
 #include "tools/synthesize/depth_sensor.hpp"
@@ -27,25 +27,55 @@ Settings checked(Settings settings) {
 
 /// Boxes and ids of the instances in an image of body ids.
 InstanceMask instances_of(const Scene& scene, const cv::Mat& bodies) {
-  InstanceMask mask{cv::Mat(bodies.size(), CV_16UC1, cv::Scalar(0)), {}};
-  std::map<int, Instance> found;
-  for (int v = 0; v < bodies.rows; ++v)
-    for (int u = 0; u < bodies.cols; ++u) {
-      const int id = bodies.at<std::uint16_t>(v, u);
-      if (id == 0 || !scene.bodies[static_cast<std::size_t>(id - 1)].instance) continue;
-      mask.ids.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(id);
-      const auto [it, fresh] = found.try_emplace(id);
-      auto& b = it->second.box_px;
-      if (fresh) b = {double(u), double(v), double(u + 1), double(v + 1)};
-      b = {std::min(b[0], double(u)), std::min(b[1], double(v)), std::max(b[2], double(u + 1)),
-           std::max(b[3], double(v + 1))};
+  InstanceMask mask{cv::Mat(bodies.size(), CV_16UC1), {}};
+  struct Extent {
+    int left, top, right, bottom;
+  };
+  std::vector<Extent> found(scene.bodies.size() + 1, Extent{bodies.cols, bodies.rows, -1, -1});
+  std::vector<bool> instance(scene.bodies.size() + 1, false);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) instance[i + 1] = scene.bodies[i].instance;
+  for (int v = 0; v < bodies.rows; ++v) {
+    const auto* row = bodies.ptr<std::uint16_t>(v);
+    auto* ids = mask.ids.ptr<std::uint16_t>(v);
+    for (int u = 0, end; u < bodies.cols; u = end) {  // runs of one body
+      const std::uint16_t id = row[u];
+      for (end = u + 1; end < bodies.cols && row[end] == id;) ++end;
+      std::fill(ids + u, ids + end, instance[id] ? id : std::uint16_t{0});
+      Extent& e = found[id];
+      e = {std::min(e.left, u), std::min(e.top, v), std::max(e.right, end - 1), v};
     }
-  for (auto& [id, instance] : found) {
-    instance.id = id;
-    instance.class_name = scene.bodies[static_cast<std::size_t>(id - 1)].class_name;
-    mask.instances.push_back(instance);
+  }
+  for (std::size_t id = 1; id < found.size(); ++id) {
+    const Extent& e = found[id];
+    if (!instance[id] || e.right < 0) continue;
+    Instance seen;
+    seen.id = static_cast<int>(id);
+    seen.class_name = scene.bodies[id - 1].class_name;
+    seen.box_px = {double(e.left), double(e.top), e.right + 1.0, e.bottom + 1.0};
+    mask.instances.push_back(std::move(seen));
   }
   return mask;
+}
+
+/// What a hit on a solid means, whichever pixel it is in.
+struct Meaning {
+  std::uint16_t body;  ///< id
+  std::uint8_t dynamic;
+  std::array<float, kFaces> depth_loss;
+};
+std::vector<Meaning> meanings_of(const Scene& scene, const Moment& moment) {
+  std::vector<Meaning> meanings;
+  for (const PlacedSolid& placed : moment.solids) {
+    const auto body_idx = static_cast<std::size_t>(placed.body_idx);
+    const bool person = scene.bodies[body_idx].mobility == Mobility::person;
+    Meaning m{static_cast<std::uint16_t>(body_idx + 1), kStatic, {}};
+    if (moment.moving[body_idx]) m.dynamic = person ? kPriorDynamic : kNonPriorDynamic;
+    for (std::size_t face = 0; face < kFaces; ++face)
+      m.depth_loss[face] =
+          scene.materials[static_cast<std::size_t>(placed.solid->materials[face])].depth_loss;
+    meanings.push_back(m);
+  }
+  return meanings;
 }
 
 }  // namespace
@@ -93,19 +123,18 @@ RecordedFrame Recording::frame(std::size_t frame_idx) const {
   cv::Mat bodies(out.exact.solid.size(), CV_16UC1, cv::Scalar(0)),
       loss(bodies.size(), CV_32FC1, cv::Scalar(0));
   out.dynamic = cv::Mat(bodies.size(), CV_8UC1, cv::Scalar(kStatic));
-  for (int v = 0; v < bodies.rows; ++v)
+  const std::vector<Meaning> meanings = meanings_of(play_.scene, moment);
+  for (int v = 0; v < bodies.rows; ++v) {
+    const int* solids = out.exact.solid.ptr<int>(v);
+    const auto* faces = out.exact.face.ptr(v);
     for (int u = 0; u < bodies.cols; ++u) {
-      const int solid_idx = out.exact.solid.at<int>(v, u);
-      if (solid_idx < 0) continue;
-      const PlacedSolid& placed = moment.solids[static_cast<std::size_t>(solid_idx)];
-      const Body& body = play_.scene.bodies[static_cast<std::size_t>(placed.body_idx)];
-      bodies.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(placed.body_idx + 1);
-      if (moment.moving[static_cast<std::size_t>(placed.body_idx)])
-        out.dynamic.at<std::uint8_t>(v, u) =
-            body.mobility == Mobility::person ? kPriorDynamic : kNonPriorDynamic;
-      const int material = placed.solid->materials[out.exact.face.at<std::uint8_t>(v, u)];
-      loss.at<float>(v, u) = play_.scene.materials[static_cast<std::size_t>(material)].depth_loss;
+      if (solids[u] < 0) continue;
+      const Meaning& m = meanings[static_cast<std::size_t>(solids[u])];
+      bodies.ptr<std::uint16_t>(v)[u] = m.body;
+      out.dynamic.ptr(v)[u] = m.dynamic;
+      loss.ptr<float>(v)[u] = m.depth_loss[faces[u]];
     }
+  }
   const bool dark = is_dark(frame_idx);
   if (dark) bodies.setTo(0), out.dynamic.setTo(kStatic);
   out.instances = instances_of(play_.scene, bodies);

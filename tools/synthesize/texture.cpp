@@ -1,11 +1,8 @@
 #include "tools/synthesize/texture.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace sediment::synthetic {
 namespace {
@@ -21,21 +18,27 @@ int texels_along(double length_m, const Sheet& sheet) {
 
 }  // namespace
 
-Texture::Texture(const Sheet& sheet) : repeat_(sheet.repeat) {
+const Texture::Pyramid& Texture::baked() const {
+  std::call_once(pyramid_->baked, [&] { bake(*pyramid_); });
+  return *pyramid_;
+}
+
+// On one thread: one that waits for others inside call_once could be given work that waits for this texture.
+void Texture::bake(Pyramid& pyramid) {
+  const Sheet& sheet = pyramid.sheet;
   Level base{texels_along(sheet.width_m, sheet), texels_along(sheet.height_m, sheet), {}};
-  texels_per_m_u_ = static_cast<float>(base.width / sheet.width_m);
-  texels_per_m_v_ = static_cast<float>(base.height / sheet.height_m);
-  base.texels.resize(static_cast<std::size_t>(base.width) * base.height);
-  tbb::parallel_for(0, base.height, [&](int row) {
+  const float per_m_u = static_cast<float>(base.width / sheet.width_m);
+  const float per_m_v = static_cast<float>(base.height / sheet.height_m);
+  base.texels.reserve(static_cast<std::size_t>(base.width) * base.height);
+  for (int row = 0; row < base.height; ++row)
     for (int column = 0; column < base.width; ++column) {
-      const Rgb c =
-          sheet.pattern((column + 0.5) / texels_per_m_u_, (row + 0.5) / texels_per_m_v_, sheet.texel_m);
-      base.texels[static_cast<std::size_t>(row) * base.width + column] =
-          byte_of(c.r) | byte_of(c.g) << 8 | byte_of(c.b) << 16;
+      const Rgb c = sheet.pattern((column + 0.5) / per_m_u, (row + 0.5) / per_m_v, sheet.texel_m);
+      base.texels.push_back(byte_of(c.r) | byte_of(c.g) << 8 | byte_of(c.b) << 16);
     }
-  });
-  levels_.push_back(std::move(base));
-  while (levels_.back().width > 1 || levels_.back().height > 1) levels_.push_back(halved(levels_.back()));
+  pyramid.texels_per_m_u = per_m_u, pyramid.texels_per_m_v = per_m_v;
+  auto& levels = pyramid.levels;
+  levels.push_back(std::move(base));
+  while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(halved(levels.back()));
 }
 
 /// Means of 2 x 2 texels; an odd row or column at the end is left out.

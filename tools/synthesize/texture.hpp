@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 namespace sediment::synthetic {
@@ -53,10 +55,11 @@ struct Sheet {
 };
 
 /// A pattern baked into a pyramid of images, so that a pixel sees the mean of its footprint: no aliasing,
-/// which would move features from frame to frame.
+/// which would move features from frame to frame. It is baked when it is first seen, which most of a room's
+/// never are.
 class Texture {
  public:
-  explicit Texture(const Sheet& sheet);
+  explicit Texture(Sheet sheet) : pyramid_(std::make_unique<Pyramid>(std::move(sheet))) {}
 
   /// Trilinear, with up to four probes along the footprint's longer axis.
   void sample(const Places& places, Colors& colors) const;
@@ -69,11 +72,18 @@ class Texture {
   };
 
  private:
+  struct Pyramid {
+    explicit Pyramid(Sheet of) : sheet(std::move(of)) {}
+    Sheet sheet;
+    std::once_flag baked;
+    std::vector<Level> levels;  ///< where the sheet repeats, their sizes are powers of two
+    float texels_per_m_u = 0, texels_per_m_v = 0;
+  };
+  const Pyramid& baked() const;
+  static void bake(Pyramid& pyramid);
   static Level halved(const Level& fine);
 
-  std::vector<Level> levels_;
-  float texels_per_m_u_ = 0, texels_per_m_v_ = 0;
-  bool repeat_ = false;  ///< width and height of all levels are powers of two
+  std::unique_ptr<Pyramid> pyramid_;
 };
 
 }  // namespace sediment::synthetic

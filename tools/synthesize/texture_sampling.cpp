@@ -151,7 +151,9 @@ void pick(const Plan& plan, const std::uint8_t* indices, int count, Plan& picked
 
 void Texture::sample(const Places& places, Colors& colors) const {
   Plan plan, picked;
-  plan_probes(places, texels_per_m_u_, texels_per_m_v_, static_cast<int>(levels_.size()), plan);
+  const Pyramid& pyramid = baked();
+  plan_probes(places, pyramid.texels_per_m_u, pyramid.texels_per_m_v, static_cast<int>(pyramid.levels.size()),
+              plan);
   // Sorted by key: where each key's places begin, then their indices.
   std::array<int, kKeys + 1> begin{};
   for (int i = 0; i < places.count; ++i) ++begin[static_cast<std::size_t>(plan.key[i]) + 1];
@@ -167,7 +169,7 @@ void Texture::sample(const Places& places, Colors& colors) const {
     const std::uint8_t* indices = order.data() + first;
     const int count = end[static_cast<std::size_t>(key)] - first;
     pick(plan, indices, count, picked);
-    sample_group(levels_, repeat_, picked, count, key, sampled);
+    sample_group(pyramid.levels, pyramid.sheet.repeat, picked, count, key, sampled);
     for (int i = 0; i < count; ++i) {
       const std::size_t to = indices[i];
       colors.r[to] = sampled.r[i], colors.g[to] = sampled.g[i], colors.b[to] = sampled.b[i];

@@ -1,10 +1,7 @@
 #include "tools/synthesize/workshop.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "tools/synthesize/patterns.hpp"
 
@@ -23,9 +20,7 @@ int Workshop::sheet(const Pattern& pattern, double width_m, double height_m, dou
 }
 
 Scene Workshop::finish() && {
-  std::vector<std::optional<Texture>> baked(sheets_.size());
-  tbb::parallel_for(std::size_t{0}, sheets_.size(), [&](std::size_t i) { baked[i].emplace(sheets_[i]); });
-  for (auto& texture : baked) scene.textures.push_back(std::move(*texture));
+  for (Sheet& sheet : sheets_) scene.textures.emplace_back(std::move(sheet));
   return std::move(scene);
 }
 

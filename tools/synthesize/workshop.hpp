@@ -8,7 +8,7 @@
 
 namespace sediment::synthetic {
 
-/// Builds a scene piece by piece: names materials, assembles solids, and bakes all textures at the end.
+/// Builds a scene piece by piece: names materials, assembles solids.
 class Workshop {
  public:
   /// `texel_m` is the finest texel worth having: about a pixel seen from a metre.
@@ -24,7 +24,7 @@ class Workshop {
   /// Plain material with a fine grain.
   int plain(Rgb color);
 
-  /// Bakes the textures: the scene is done.
+  /// The scene is done.
   Scene finish() &&;
 
   /// Adds a body and returns its index.
