@@ -53,9 +53,8 @@ void hang_clock(Workshop& w, const Wall& wall, double u, double z) {
   w.add("clock", "clock", true, moved(moved({disc}, lying), wall.at(u, z)));
 }
 
-void hang_door(Workshop& w, const Wall& wall, double u) {
-  const int leaf = w.sheet(wood(w.random.next(), {.60f, .47f, .34f}), 0.9, 2.0),
-            frame = w.plain({.48f, .45f, .42f}), metal = w.plain({.72f, .72f, .74f});
+void hang_door(Workshop& w, const Wall& wall, double u, int leaf) {
+  const int frame = w.plain({.48f, .45f, .42f}), metal = w.plain({.72f, .72f, .74f});
   w.add("door", "other furniture", false,
         moved({box({0, -0.015, 1.0}, {0.9, 0.03, 2.0}, frame, kFront, leaf),
                box({-0.5, -0.03, 1.03}, {0.1, 0.06, 2.06}, frame),
@@ -105,11 +104,22 @@ void hang_fittings(Workshop& w) {
   hang_poster(w, left, -2.0, 1.65, 0.6, 0.85);
   hang_poster(w, left, 2.05, 1.65, 0.6, 0.85);
   fix_socket(w, left, 0.2, 0.35);
-  hang_door(w, front, -2.2);
+  const int leaf = w.sheet(wood(w.random.next(), {.60f, .47f, .34f}), 0.9, 2.0);
+  hang_door(w, front, -2.2, leaf);
   hang_poster(w, front, -1.15, 1.65, 0.6, 0.85);
   hang_board(w, front, 0.0, 1.65, 1.2, 0.8);
   hang_poster(w, front, 1.1, 1.65, 0.6, 0.85);
   hang_poster(w, front, 2.15, 1.6, 0.7, 1.0);
+}
+
+void hang_few_fittings(Workshop& w) {
+  const Wall back{{0, w.scene.room_high.y, 0}, 0};
+  const int leaf = w.sheet(plaster(w.random.next(), {.82f, .81f, .78f}, 0.015), 0.9, 2.0);
+  hang_door(w, back, -1.9, leaf);
+  fix_socket(w, back, -1.15, 1.05);
+  fix_socket(w, back, 0.25, 0.35);
+  fix_socket(w, back, 0.8, 1.1);
+  hang_radiator(w, back, 2.2);
 }
 
 }  // namespace sediment::synthetic

@@ -176,11 +176,15 @@ std::vector<Solid> carton(Workshop& w, Vec3 size) {
   return {solid};
 }
 
-void place_furniture(Workshop& w, const RoomStyle& style) {
+void place_furniture(Workshop& w, RoomStyle style) {
   constexpr double kPi = std::numbers::pi;
+  if (style == RoomStyle::bare) {
+    w.add("box", "box", true, moved(carton(w, {0.42, 0.34, 0.3}), placed({1.5, 2.2, 0}, 0.25)));
+    return;
+  }
   place_desk(w, {-0.95, 1.85, 0}, 1.8, 0);
   place_desk(w, {0.9, 1.85, 0}, 1.8, 0);
-  if (!style.bare) {
+  if (style == RoomStyle::furnished) {
     dress_desk(w, placed({-0.95, 1.85, 0}), true);
     dress_desk(w, placed({0.9, 1.85, 0}), false);
   }
@@ -192,7 +196,7 @@ void place_furniture(Workshop& w, const RoomStyle& style) {
   w.add("box", "box", true, moved(carton(w, {0.42, 0.42, 0.4}), placed({2.7, 0.35, 1.1}, 1.45)));
 
   place_desk(w, {-1.0, -2.05, 0}, 1.8, kPi);
-  if (!style.bare) dress_desk(w, placed({-1.0, -2.05, 0}, kPi), true);
+  if (style == RoomStyle::furnished) dress_desk(w, placed({-1.0, -2.05, 0}, kPi), true);
   place_cabinet(w, {1.3, -2.24, 0}, kPi);
 }
 

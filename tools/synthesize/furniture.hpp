@@ -5,6 +5,6 @@
 namespace sediment::synthetic {
 
 /// Desks with screens, keyboards, cups and books, shelf, cabinet, boxes, door, plant.
-void place_furniture(Workshop& workshop, const RoomStyle& style);
+void place_furniture(Workshop& workshop, RoomStyle style);
 
 }  // namespace sediment::synthetic

@@ -58,27 +58,27 @@ double smooth_step(double x) {
 }  // namespace
 
 CameraMotion play_static(Stage stage) {
-  furnish(stage.workshop, {});
+  furnish(stage.workshop, RoomStyle::furnished);
   add_chair(stage.workshop, "chair", {.20f, .30f, .58f}, placed({-1.0, 1.12, 0}, std::numbers::pi + 0.3));
   add_chair(stage.workshop, "chair", {.16f, .48f, .46f}, placed({0.8, 1.0, 0}, std::numbers::pi - 0.6));
   return before_desks(stage);
 }
 
 CameraMotion play_walking(Stage stage) {
-  furnish(stage.workshop, {});
+  furnish(stage.workshop, RoomStyle::furnished);
   add_walkers(stage.workshop);
   return before_desks(stage);
 }
 
 CameraMotion play_rotation(Stage stage) {
-  furnish(stage.workshop, {});
+  furnish(stage.workshop, RoomStyle::furnished);
   add_walkers(stage.workshop);
   return turning(stage.motion_seed, {0.05, -1.35, 1.4}, 0, -0.2);
 }
 
 CameraMotion play_sitting(Stage stage) {
   Workshop& w = stage.workshop;
-  furnish(w, {});
+  furnish(w, RoomStyle::furnished);
   const auto seat = [&](const std::string& name, Rgb color, double x, double y, double yaw) {
     add_chair(w, "chair of the " + name, color, placed({x, y, 0}, yaw));
     const Vec3 pelvis = placed({x, y, 0}, yaw) * Vec3{0, 0.06, 0};
@@ -96,7 +96,7 @@ CameraMotion play_sitting(Stage stage) {
 
 CameraMotion play_carried_box(Stage stage) {
   Workshop& w = stage.workshop;
-  furnish(w, {});
+  furnish(w, RoomStyle::furnished);
   add_chair(w, "chair", {.20f, .30f, .58f}, placed({-1.35, 1.05, 0}, std::numbers::pi + 0.3));
   constexpr double kHalfHeight = 0.13;
   // From the left desk round the middle of the room to the right desk, and after a while back again.
@@ -124,11 +124,11 @@ CameraMotion play_carried_box(Stage stage) {
   return handheld(stage.motion_seed, {0.4, -1.4, 1.45}, 0.03, -0.22);
 }
 
-// A bare room, a camera that rolls over to 80 degrees and back, and people who stand close before it while it
+// A pale room, a camera that rolls over to 80 degrees and back, and people who stand close before it while it
 // does: in the middle second they hide most of the view.
 CameraMotion play_crowd(Stage stage) {
   Workshop& w = stage.workshop;
-  furnish(w, {.bare = true});
+  furnish(w, RoomStyle::pale);
   const double middle = stage.duration_s / 2, end = stage.duration_s;
   const double come = std::max(0.3, middle - 2), there = std::max(0.6, middle - 0.9), leave = middle + 0.9,
                gone = std::max(leave + 0.3, middle + 2);
@@ -153,8 +153,28 @@ CameraMotion play_crowd(Stage stage) {
   };
 }
 
+// The camera swings to and fro along the wall: between the door and the radiator there is nearly nothing to
+// see.
+CameraMotion play_bare(Stage stage) {
+  Workshop& w = stage.workshop;
+  furnish(w, RoomStyle::bare);
+  add_person(w, "passer-by",
+             {{0, -2.4, 0.9, kToRight},
+              {1.5, -2.4, 0.9, kToRight},
+              {6, 2.3, 1.0, kToRight},
+              {9, 2.3, 1.0, kToLeft},
+              {14, -2.4, 0.9, kToLeft},
+              {16, -2.4, 0.9, kToRight}});
+  const CameraMotion hand = handheld(stage.motion_seed, {0.05, -1.35, 1.45}, 0, -0.2);
+  return [=](double t) {
+    constexpr double kPeriod = 11, kSwing = 0.45;  // seconds, radians
+    return looking({}, kSwing * std::sin(2 * std::numbers::pi * t / kPeriod), 0, 0) *
+           looking({}, 0, 0, 0).inverse() * hand(t);
+  };
+}
+
 CameraMotion play_loop(Stage stage) {
-  furnish(stage.workshop, {});
+  furnish(stage.workshop, RoomStyle::furnished);
   add_chair(stage.workshop, "chair", {.20f, .30f, .58f}, placed({-1.0, 1.12, 0}, std::numbers::pi + 0.3));
   add_chair(stage.workshop, "chair", {.16f, .48f, .46f}, placed({-0.6, -1.35, 0}, 0.4));
   const double duration = stage.duration_s;

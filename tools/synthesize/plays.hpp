@@ -20,6 +20,7 @@ CameraMotion play_sitting(Stage stage);
 CameraMotion play_carried_box(Stage stage);
 CameraMotion play_rotation(Stage stage);
 CameraMotion play_crowd(Stage stage);
+CameraMotion play_bare(Stage stage);
 CameraMotion play_loop(Stage stage);
 CameraMotion play_kidnapped(Stage stage);
 

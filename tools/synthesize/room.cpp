@@ -2,6 +2,7 @@
 
 #include "tools/synthesize/fittings.hpp"
 #include "tools/synthesize/furniture.hpp"
+#include "tools/synthesize/palette.hpp"
 #include "tools/synthesize/patterns.hpp"
 
 namespace sediment::synthetic {
@@ -9,16 +10,36 @@ namespace {
 
 constexpr double kHalfX = 3, kHalfY = 2.5, kHeight = 2.7, kThick = 0.1;
 
-void build_shell(Workshop& w, const RoomStyle& style) {
-  const double contrast = style.bare ? 0.25 : 1;
+/// Materials of the room's sides.
+struct Shell {
+  int back, front, left, right, floor, ceiling;
+};
+
+Shell white_shell(Workshop& w, double x, double y) {
+  const auto painted = [&](double tone, double contrast, double width, double height) {
+    return w.sheet(plaster(w.random.next(), gray(tone), contrast), width, height, 2.2);
+  };
+  return {painted(0.86, 0.015, x, kHeight), painted(0.85, 0.015, x, kHeight),
+          painted(0.87, 0.015, y, kHeight), painted(0.86, 0.015, y, kHeight),
+          painted(0.45, 0.03, x, y),        painted(0.88, 0.015, x, y)};
+}
+
+Shell colored_shell(Workshop& w, double x, double y, double contrast) {
   const auto wall = [&](Rgb color, double width) {
     return w.sheet(plaster(w.random.next(), color, contrast), width, kHeight, 2.2);
   };
-  const double x = 2 * kHalfX, y = 2 * kHalfY;
   const int back = wall({.80f, .79f, .74f}, x), front = wall({.76f, .79f, .80f}, x);
   const int left = wall({.82f, .76f, .66f}, y), right = wall({.70f, .76f, .74f}, y);
   const int floor = w.sheet(carpet(w.random.next(), {.36f, .38f, .44f}), x, y, 2.2);
   const int ceiling = w.sheet(ceiling_panels(w.random.next()), x, y, 3);
+  return {back, front, left, right, floor, ceiling};
+}
+
+void build_shell(Workshop& w, RoomStyle style) {
+  const double x = 2 * kHalfX, y = 2 * kHalfY;
+  const auto [back, front, left, right, floor, ceiling] =
+      style == RoomStyle::bare ? white_shell(w, x, y)
+                               : colored_shell(w, x, y, style == RoomStyle::pale ? 0.25 : 1);
   const double middle = kHeight / 2;
   w.add("back wall", "wall", false, {box({0, kHalfY + kThick / 2, middle}, {x, kThick, kHeight}, back)});
   w.add("front wall", "wall", false, {box({0, -kHalfY - kThick / 2, middle}, {x, kThick, kHeight}, front)});
@@ -52,10 +73,11 @@ void hang_lamps(Workshop& w) {
 
 }  // namespace
 
-void furnish(Workshop& workshop, const RoomStyle& style) {
+void furnish(Workshop& workshop, RoomStyle style) {
   build_shell(workshop, style);
   hang_lamps(workshop);
-  if (!style.bare) hang_fittings(workshop);
+  if (style == RoomStyle::furnished) hang_fittings(workshop);
+  if (style == RoomStyle::bare) hang_few_fittings(workshop);
   place_furniture(workshop, style);
 }
 

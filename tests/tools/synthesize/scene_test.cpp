@@ -69,6 +69,25 @@ TEST_CASE("ORB finds features all over the image wherever the camera looks") {
   }
 }
 
+TEST_CASE("`bare` has a corner here and there, in places few, and a person in some frames") {
+  const Recording recording = recording_of("bare", 10, 1, 640, true);
+  std::size_t fewest = 10000;
+  int with_person = 0;
+  for (std::size_t i = 0; i < recording.size(); ++i) {
+    const RecordedFrame f = recording.frame(i);
+    std::vector<cv::KeyPoint> features;
+    cv::Mat gray;
+    cv::cvtColor(f.frame.color, gray, cv::COLOR_BGR2GRAY);
+    cv::ORB::create(4000)->detect(gray, features, f.dynamic == kStatic);
+    fewest = std::min(fewest, features.size());
+    with_person += dynamic_share(f) > 0.02;
+  }
+  CHECK(fewest > 80);
+  CHECK(fewest < 250);
+  CHECK(with_person >= 2);
+  CHECK(with_person <= 8);
+}
+
 TEST_CASE("in the middle second of `crowd` people hide more than 60 % of the image of a rolled camera") {
   const Recording recording = recording_of("crowd", 60, 6, 80);
   int covered = 0, rolled = 0;
