@@ -16,7 +16,9 @@ constexpr int kSmallestSide_px = 16;
 FlowField::FlowField(cv::Mat displacements, cv::Size full)
     : grid_(std::move(displacements)),
       cells_per_px_x_(static_cast<float>(grid_.cols) / static_cast<float>(full.width)),
-      cells_per_px_y_(static_cast<float>(grid_.rows) / static_cast<float>(full.height)) {}
+      cells_per_px_y_(static_cast<float>(grid_.rows) / static_cast<float>(full.height)),
+      last_x_(static_cast<float>(grid_.cols - 1)),
+      last_y_(static_cast<float>(grid_.rows - 1)) {}
 
 cv::Mat flow_image(const cv::Mat& color) {
   const int factor = std::max(1, static_cast<int>(std::lround(color.cols / kFlowColumns)));

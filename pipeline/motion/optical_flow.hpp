@@ -15,9 +15,9 @@ class FlowField {
 
   bool empty() const { return grid_.empty(); }
   /// Displacement at a position in the full image, bilinear; positions outside have that of the border.
-  cv::Point2f at(float u, float v) const {
-    const float x = std::clamp((u + 0.5F) * cells_per_px_x_ - 0.5F, 0.0F, static_cast<float>(grid_.cols - 1));
-    const float y = std::clamp((v + 0.5F) * cells_per_px_y_ - 0.5F, 0.0F, static_cast<float>(grid_.rows - 1));
+  [[gnu::always_inline]] cv::Point2f at(float u, float v) const {
+    const float x = std::min(std::max((u + 0.5F) * cells_per_px_x_ - 0.5F, 0.0F), last_x_);
+    const float y = std::min(std::max((v + 0.5F) * cells_per_px_y_ - 0.5F, 0.0F), last_y_);
     const int left = std::min(static_cast<int>(x), grid_.cols - 2),
               top = std::min(static_cast<int>(y), grid_.rows - 2);
     const float right_share = x - static_cast<float>(left), lower_share = y - static_cast<float>(top);
@@ -30,6 +30,7 @@ class FlowField {
  private:
   cv::Mat grid_;
   float cells_per_px_x_ = 1, cells_per_px_y_ = 1;
+  float last_x_ = 0, last_y_ = 0;
 };
 
 /// Whether a displacement holds in both directions: followed by the reverse flow it leads back to where it

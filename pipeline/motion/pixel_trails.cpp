@@ -1,11 +1,42 @@
 #include "pipeline/motion/pixel_trails.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <cmath>
 
 namespace sediment {
 namespace {
 
 constexpr float kOneWayTrust = 0.25F;
+constexpr std::size_t kGrain = 1 << 13;  ///< trails that are worth a task of their own
+
+/// One step of trails first .. last - 1: no trail knows of another.
+struct Step {
+  PixelTrails& trails;
+  const FlowField &flow, &reverse;
+  const cv::Mat& depth;
+  float absolute, relative;
+
+  void operator()(std::size_t first, std::size_t last) const {
+    const float last_u = static_cast<float>(depth.cols - 1), last_v = static_cast<float>(depth.rows - 1);
+    for (std::size_t i = first; i < last; ++i) {
+      if (!trails.valid[i]) continue;
+      const cv::Point2f moved = flow.at(trails.u[i], trails.v[i]);
+      const float u = trails.u[i] += moved.x, v = trails.v[i] += moved.y;
+      if (!(u >= 0 && u <= last_u && v >= 0 && v <= last_v)) {
+        trails.valid[i] = 0;
+        continue;
+      }
+      if (!is_mutual(moved, reverse.at(u, v))) trails.trust[i] *= kOneWayTrust;
+      const auto seen = trails.nearest<std::uint16_t>(depth, i);
+      if (seen == 0) continue;
+      const float before = trails.depth[i], change = std::abs(static_cast<float>(seen) - before);
+      if (before != 0 && change > absolute + relative * before) trails.valid[i] = 0;
+      trails.depth[i] = seen;
+    }
+  }
+};
 
 }  // namespace
 
@@ -32,25 +63,14 @@ PixelTrails start_trails(const cv::Mat& depth, int step_px) {
 
 void follow(PixelTrails& trails, const FlowField& flow, const FlowField& reverse, const cv::Mat& depth,
             double depth_scale, const DepthTolerance& tolerance) {
-  const float last_u = static_cast<float>(depth.cols - 1), last_v = static_cast<float>(depth.rows - 1);
-  const float absolute = static_cast<float>(tolerance.absolute_m * depth_scale);
-  const float relative = static_cast<float>(tolerance.relative);
-  for (std::size_t i = 0; i < trails.size(); ++i) {
-    if (!trails.valid[i]) continue;
-    const cv::Point2f moved = flow.at(trails.u[i], trails.v[i]);
-    trails.u[i] += moved.x;
-    trails.v[i] += moved.y;
-    if (!(trails.u[i] >= 0 && trails.u[i] <= last_u && trails.v[i] >= 0 && trails.v[i] <= last_v)) {
-      trails.valid[i] = 0;
-      continue;
-    }
-    if (!is_mutual(moved, reverse.at(trails.u[i], trails.v[i]))) trails.trust[i] *= kOneWayTrust;
-    const auto seen = trails.nearest<std::uint16_t>(depth, i);
-    if (seen == 0) continue;
-    const float before = trails.depth[i], change = std::abs(static_cast<float>(seen) - before);
-    if (before != 0 && change > absolute + relative * before) trails.valid[i] = 0;
-    trails.depth[i] = seen;
-  }
+  const Step step{trails,
+                  flow,
+                  reverse,
+                  depth,
+                  static_cast<float>(tolerance.absolute_m * depth_scale),
+                  static_cast<float>(tolerance.relative)};
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, trails.size(), kGrain),
+                    [&](const auto& range) { step(range.begin(), range.end()); });
 }
 
 }  // namespace sediment

@@ -56,13 +56,23 @@ Overlaps overlaps_of(const PixelTrails& here, const ClipFrame& frame, const Pixe
   return overlaps;
 }
 
+/// How many frames back the oldest track was seen that may still go on: trails beyond it cost for nothing.
+int farthest_track(std::size_t frame_idx, int reach, const std::vector<Track>& tracks) {
+  int farthest = 0;
+  for (const Track& track : tracks)
+    if (track.last_idx + static_cast<std::size_t>(reach) >= frame_idx)
+      farthest = std::max(farthest, static_cast<int>(frame_idx - track.last_idx));
+  return farthest;
+}
+
 /// Detections that fit the latest detection of a track.
 std::vector<Candidate> candidates_of(const Clip& clip, const ClipFrame& frame, double depth_scale,
                                      const LinkParameters& parameters, const std::vector<Track>& tracks) {
   std::vector<Candidate> candidates;
   if (frame.detections.instances.empty()) return candidates;
   const PixelTrails here = start_trails(frame.depth, kStep_px);
-  walk(clip, frame.frame_idx, Direction::backward, parameters.max_gap + 1, kStep_px, depth_scale,
+  walk(clip, frame.frame_idx, Direction::backward,
+       farthest_track(frame.frame_idx, parameters.max_gap + 1, tracks), kStep_px, depth_scale,
        [&](const ClipFrame& earlier, const PixelTrails& there) {
          const auto& track_of = earlier.track_of;
          if (std::none_of(track_of.begin(), track_of.end(), [&](int track) {

@@ -106,7 +106,10 @@ class Repair {
   void finish_frame(const ClipFrame& frame) {
     std::vector<SoftMask> soft = vote(clip_, frame.frame_idx, depth_scale_, parameters_.vote,
                                       [&](int track) { return may_appear(track, frame.frame_idx); });
-    for (SoftMask& mask : soft) snap(mask, frame.depth, frame.color, depth_scale_, parameters_.snap);
+    if (parameters_.snap.radius_px > 0 && !soft.empty()) {
+      const Guide guide = guide_of(frame.depth, frame.color, depth_scale_, parameters_.snap.radius_px);
+      for (SoftMask& mask : soft) snap(mask, guide, parameters_.snap.rounds);
+    }
     InstanceMask mask = harden(soft, frame.color.size());
     FrameResult& result = results_[frame.frame_idx];
     if (parameters_.speeds && !frame.to_next.empty())

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pipeline/scene/frame.hpp"
+#include "stages/repair/guide.hpp"
 #include "stages/repair/vote.hpp"
 
 namespace sediment::repair {
@@ -18,9 +19,7 @@ struct SnapParameters {
 /// the outline gets the mean share of the pixels around it that lie at its own depth and have its colour (a
 /// joint bilateral filter). So background inside a mask that is too large joins the background, and a limb
 /// outside one that is too small joins the limb; where neither depth nor colour changes, the outline stays.
-/// `depth` and `color` are the full images.
-void snap(SoftMask& mask, const cv::Mat& depth, const cv::Mat& color, double depth_scale,
-          const SnapParameters& parameters);
+void snap(SoftMask& mask, const Guide& guide, int rounds);
 
 /// One image of ids from soft masks: at each pixel the track with the largest share above one half, the first
 /// of equals; id = track + 1. Tracks without a pixel are left out. Instances get id, score and box.

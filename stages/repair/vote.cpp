@@ -37,8 +37,8 @@ class Election {
   /// Collects votes along the trails in one direction.
   void ask(Direction direction, double depth_scale) {
     for (auto& [track, ballot] : ballots_) ballot.voters = 0;
-    walk(clip_, frame_.frame_idx, direction, std::max(parameters_.max_gap, parameters_.neighbors), kStep_px,
-         depth_scale, [&](const ClipFrame& other, const PixelTrails& trails) {
+    walk(clip_, frame_.frame_idx, direction, farthest_voter(direction), kStep_px, depth_scale,
+         [&](const ClipFrame& other, const PixelTrails& trails) {
            collect(other, trails,
                    std::abs(static_cast<int>(other.frame_idx) - static_cast<int>(frame_.frame_idx)));
            return true;
@@ -56,12 +56,29 @@ class Election {
   }
 
  private:
-  bool may_vote(int track, int distance) const {
+  bool may_vote(int track, int distance, int voters_before) const {
     if (own_.contains(track)) return distance <= parameters_.neighbors;
-    if (!may_appear_(track)) return false;
-    const auto ballot = ballots_.find(track);
-    const int voters = ballot == ballots_.end() ? 0 : ballot->second.voters;
-    return distance <= parameters_.max_gap && voters < std::max(1, parameters_.neighbors);
+    return distance <= parameters_.max_gap && voters_before < std::max(1, parameters_.neighbors) &&
+           may_appear_(track);
+  }
+
+  /// Distance of the last frame in a direction in which somebody votes: trails beyond it cost for nothing.
+  int farthest_voter(Direction direction) const {
+    std::map<int, int> voters;
+    int farthest = 0;
+    for (int distance = 1; distance <= std::max(parameters_.max_gap, parameters_.neighbors); ++distance) {
+      const std::size_t at =
+          frame_.frame_idx + static_cast<std::size_t>(distance * static_cast<int>(direction));
+      if (!clip_.has(at)) break;
+      const ClipFrame& other = clip_.at(at);
+      for (std::size_t i = 0; i < other.track_of.size(); ++i) {
+        const int track = other.track_of[i];
+        if (!other.trusted[i] || !may_vote(track, distance, voters[track])) continue;
+        ++voters[track];
+        farthest = distance;
+      }
+    }
+    return farthest;
   }
 
   void collect(const ClipFrame& other, const PixelTrails& trails, int distance) {
@@ -69,9 +86,12 @@ class Election {
     std::vector<Ballot*> ballot_of_id;
     std::vector<Ballot*> open;
     for (std::size_t i = 0; i < other.track_of.size(); ++i) {
-      if (!other.trusted[i] || !may_vote(other.track_of[i], distance)) continue;
+      const int track = other.track_of[i];
+      const auto known = ballots_.find(track);
+      const int voters = known == ballots_.end() ? 0 : known->second.voters;
+      if (!other.trusted[i] || !may_vote(track, distance, voters)) continue;
       const Instance& instance = other.detections.instances[i];
-      Ballot& ballot = ballots_[other.track_of[i]];
+      Ballot& ballot = ballots_[track];
       ballot.votes.resize(trails.size());
       ballot.weights.resize(trails.size());
       ballot.score_sum += weight * instance.score;

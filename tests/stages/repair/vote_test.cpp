@@ -43,7 +43,8 @@ InstanceMask voted(const Clip& clip, std::size_t frame_idx, const VoteParameters
                    bool may_appear = true) {
   auto masks = vote(clip, frame_idx, kScale, parameters, [&](int) { return may_appear; });
   const ClipFrame& frame = clip.at(frame_idx);
-  for (SoftMask& mask : masks) snap(mask, frame.depth, frame.color, kScale, {.radius_px = snap_px});
+  const Guide guide = guide_of(frame.depth, frame.color, kScale, snap_px);
+  for (SoftMask& mask : masks) snap(mask, guide, SnapParameters{}.rounds);
   return harden(masks, frame.color.size());
 }
 
