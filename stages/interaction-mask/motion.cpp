@@ -59,7 +59,8 @@ std::vector<std::set<int>> moved_objects(const std::vector<std::vector<ObjectSta
       if (state.touched && !state.speed_m_s) moved[static_cast<std::size_t>(frame)].insert(id);
     for (const Motion& motion : motions_of(life, parameters)) {
       if (!touched_near(life, motion, parameters.memory)) continue;
-      for (auto state = life.lower_bound(motion.first); state != life.upper_bound(motion.last); ++state)
+      const auto end = life.upper_bound(motion.last + parameters.margin);
+      for (auto state = life.lower_bound(motion.first - parameters.margin); state != end; ++state)
         moved[static_cast<std::size_t>(state->first)].insert(id);
     }
   }

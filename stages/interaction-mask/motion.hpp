@@ -11,6 +11,7 @@ struct MotionParameters {
   double stop_m_s = 0.04;  ///< and rests below this
   int min_frames = 3;      ///< that a motion has above start_m_s
   int memory = 15;         ///< frames between a touch and the motion it causes, or the other way round
+  int margin = 2;          ///< frames more on either side of a motion: speeds are means over five frames
 };
 
 /// What is known of one prior static object in one frame.
@@ -22,8 +23,9 @@ struct ObjectState {
 
 /// Which objects are non-prior dynamic in each frame: those that are in motion and are touched at some time
 /// of the motion, or up to `memory` frames before or after it. A motion reaches, forward and backward, from
-/// where it is certain to where the object rests: so it begins with the first movement, and its rest before
-/// and after is static. Where the speed of a touched object is not known, the touch decides, as in the paper.
+/// where it is certain to where the object rests, and `margin` frames beyond: so it begins with the first
+/// movement, and its rest before and after is static. Where the speed of a touched object is not known, the
+/// touch decides, as in the paper.
 std::vector<std::set<int>> moved_objects(const std::vector<std::vector<ObjectState>>& frames,
                                          const MotionParameters& parameters);
 
