@@ -12,6 +12,7 @@ namespace sediment::repair {
 namespace {
 
 constexpr float kLeastShare = 0.05F;  ///< pixels below this are left to the background
+constexpr double kQuorum = 0.1;       ///< of the votes that could be: fewer are no full share
 constexpr int kMargin_px = 16;        ///< around the votes: what snapping may look at
 
 /// The votes on one track, on the grid.
@@ -136,7 +137,9 @@ class Election {
     for (int row = 0; row < rows_; ++row)
       for (int column = 0; column < columns_; ++column) {
         const auto i = static_cast<std::size_t>(row) * columns_ + column;
-        grid.at<float>(row, column) = ballot.weights[i] > 0 ? ballot.votes[i] / ballot.weights[i] : 0;
+        const auto quorum = static_cast<float>(kQuorum * ballot.weight_sum);
+        grid.at<float>(row, column) =
+            ballot.weights[i] > 0 ? ballot.votes[i] / std::max(ballot.weights[i], quorum) : 0;
       }
     cv::resize(grid, full, {columns_ * kStep_px, rows_ * kStep_px}, 0, 0, cv::INTER_LINEAR);
     return full(where).clone();
