@@ -1,0 +1,111 @@
+#include "stages/movers/regions.hpp"
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace sediment::movers {
+namespace {
+
+/// Seeds and what may join them.
+struct Marks {
+  cv::Mat seeds, open;
+};
+
+Marks marks_of(const Verdicts& verdicts, const RegionParameters& parameters) {
+  Marks marks{cv::Mat(verdicts.through.size(), CV_8UC1, cv::Scalar(0)),
+              cv::Mat(verdicts.through.size(), CV_8UC1, cv::Scalar(0))};
+  for (int y = 0; y < marks.seeds.rows; ++y)
+    for (int x = 0; x < marks.seeds.cols; ++x) {
+      const int through = verdicts.through.at<std::uint8_t>(y, x),
+                told = through + verdicts.hits.at<std::uint8_t>(y, x);
+      if (through == 0) continue;
+      if (through >= parameters.min_views && through > parameters.min_share * told)
+        marks.seeds.at<std::uint8_t>(y, x) = 255;
+      if (through > parameters.grow_share * told) marks.open.at<std::uint8_t>(y, x) = 255;
+    }
+  return marks;
+}
+
+/// Fills `regions` over open pixels whose depth goes on from that of a neighbour inside.
+void grow(cv::Mat& regions, const cv::Mat& open, const cv::Mat& depth, double depth_scale) {
+  std::vector<cv::Point> front;
+  for (int y = 0; y < regions.rows; ++y)
+    for (int x = 0; x < regions.cols; ++x)
+      if (regions.at<std::uint8_t>(y, x)) front.emplace_back(x, y);
+  const auto depth_at = [&](const cv::Point& p) {
+    return depth.at<std::uint16_t>(p.y * kStep_px + kStep_px / 2, p.x * kStep_px + kStep_px / 2) /
+           depth_scale;
+  };
+  const cv::Rect image({}, regions.size());
+  while (!front.empty()) {
+    const cv::Point from = front.back();
+    front.pop_back();
+    for (const cv::Point& way : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
+      const cv::Point to = from + way;
+      if (!image.contains(to) || regions.at<std::uint8_t>(to) || !open.at<std::uint8_t>(to)) continue;
+      const double z = depth_at(from);
+      if (std::abs(depth_at(to) - z) > 0.02 + 0.02 * z) continue;
+      regions.at<std::uint8_t>(to) = 255;
+      front.push_back(to);
+    }
+  }
+}
+
+}  // namespace
+
+cv::Mat regions_of(const Verdicts& verdicts, const cv::Mat& depth, double depth_scale,
+                   const RegionParameters& parameters) {
+  const Marks marks = marks_of(verdicts, parameters);
+  cv::Mat regions;
+  const cv::Mat ball = cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3});
+  cv::morphologyEx(marks.seeds, regions, cv::MORPH_OPEN, ball);
+  grow(regions, marks.open, depth, depth_scale);
+  cv::morphologyEx(regions, regions, cv::MORPH_CLOSE, ball, {-1, -1}, 2);
+  cv::Mat labels, statistics, centres;
+  const int count = cv::connectedComponentsWithStats(regions, labels, statistics, centres, 8);
+  const double least = parameters.min_area * regions.rows * regions.cols;
+  for (int y = 0; y < regions.rows; ++y)
+    for (int x = 0; x < regions.cols; ++x)
+      if (count > 1 && statistics.at<int>(labels.at<int>(y, x), cv::CC_STAT_AREA) < least)
+        regions.at<std::uint8_t>(y, x) = 0;
+  return regions;
+}
+
+cv::Mat confirmed_by(const cv::Mat& regions, const View& view, const cv::Mat& regions_there,
+                     const View& there, const Camera& camera, const std::vector<Ray>& rays, int reach_px) {
+  cv::Mat near, labels;
+  const int reach = std::max(1, reach_px / kStep_px), side = 2 * reach + 1;
+  cv::Mat known;
+  cv::resize(there.dynamic, known, regions.size(), 0, 0, cv::INTER_NEAREST);
+  known = (known != 0) | regions_there;
+  cv::dilate(known, near, cv::Mat::ones(side, side, CV_8UC1));
+  const int count = cv::connectedComponents(regions, labels, 8);
+  std::vector<int> all(static_cast<std::size_t>(count)), shown(all.size());
+  const Pose there_from_here = there.world_from_camera.inverse() * view.world_from_camera;
+  for (int y = 0; y < regions.rows; ++y)
+    for (int x = 0; x < regions.cols; ++x) {
+      const auto label = static_cast<std::size_t>(labels.at<int>(y, x));
+      const int u = x * kStep_px + kStep_px / 2, v = y * kStep_px + kStep_px / 2;
+      const double z = view.depth.at<std::uint16_t>(v, u) / camera.depth_scale;
+      if (label == 0 || z <= 0) continue;
+      const Ray& ray = rays[static_cast<std::size_t>(v) * camera.width + u];
+      const Vec3 point = there_from_here * Vec3{ray.x * z, ray.y * z, z};
+      if (point.z <= 0) continue;
+      const Pixel at = camera.project(point);
+      const cv::Point cell(static_cast<int>(std::floor(at.u / kStep_px)),
+                           static_cast<int>(std::floor(at.v / kStep_px)));
+      if (!cv::Rect({}, near.size()).contains(cell)) continue;
+      ++all[label];
+      shown[label] += near.at<std::uint8_t>(cell) ? 1 : 0;
+    }
+  cv::Mat confirmed(regions.size(), CV_8UC1, cv::Scalar(0));
+  for (int y = 0; y < regions.rows; ++y)
+    for (int x = 0; x < regions.cols; ++x) {
+      const auto label = static_cast<std::size_t>(labels.at<int>(y, x));
+      if (label > 0 && all[label] > 0 && 2 * shown[label] >= all[label])
+        confirmed.at<std::uint8_t>(y, x) = 255;
+    }
+  return confirmed;
+}
+
+}  // namespace sediment::movers

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "stages/movers/contradiction.hpp"
+
+namespace sediment::movers {
+
+struct RegionParameters {
+  int min_views = 3;        ///< that see through a pixel, for it to be the seed of a region
+  double min_share = 0.6;   ///< of the views that tell something about it, more than this
+  double grow_share = 0.3;  ///< pixels with more than this join a seed that they lie beside
+  double min_area = 0.001;  ///< of the image; smaller regions are speckle
+};
+
+/// The regions (CV_8UC1 on the grid, 0 or 255) that others see through: seeds, cleaned of what is narrower
+/// than six pixels of the image, grown over pixels of their surface that are seen through less often, as a
+/// thing that moves slowly hides where it was. `depth` is that of the view.
+cv::Mat regions_of(const Verdicts& verdicts, const cv::Mat& depth, double depth_scale,
+                   const RegionParameters& parameters);
+
+/// Those regions of a view of which another view shows at least half, moved by no more than `reach_px`: a
+/// region of `there` (or what is masked there) lies near where each pixel would be if it stood still.
+/// Returns a label image's kept regions as a mask: 255 where the region is confirmed.
+cv::Mat confirmed_by(const cv::Mat& regions, const View& view, const cv::Mat& regions_there,
+                     const View& there, const Camera& camera, const std::vector<Ray>& rays, int reach_px);
+
+}  // namespace sediment::movers
