@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/scene/frame.hpp"
+
 namespace sediment::movers {
 namespace {
 
@@ -23,39 +25,71 @@ bool is_edge(const cv::Mat& depth, int x, int y, double tolerance_units) {
 
 enum class Says { nothing, through, hit };
 
-/// What one reference says of a point at `depth_m` in the view, at `p` in the reference's camera frame.
-Says judge(const Reference& reference, const Camera& camera, const Vec3& p, double depth_m,
+/// One reference as seen from one view.
+struct Pair {
+  const Reference& reference;
+  const Reference::Window& window;
+  Pose there_from_here;
+  double slack_m;
+};
+
+/// Those of which something can be said: slow enough for one of the windows.
+std::vector<Pair> pairs_of(const View& view, std::span<const Reference* const> references,
+                           const ContradictionParameters& parameters) {
+  std::vector<Pair> pairs;
+  for (const Reference* reference : references) {
+    const double turned_rad = parameters.lag_s * (view.speed.rad_s + reference->speed.rad_s),
+                 moved_m = parameters.lag_s * (view.speed.m_s + reference->speed.m_s);
+    for (std::size_t w = 0; w < kReaches.size(); ++w)
+      if (parameters.slack_rad + turned_rad <= 1.5 * kReaches[w] * parameters.slack_rad) {
+        pairs.push_back({*reference, reference->windows[w],
+                         reference->camera_from_world * view.world_from_camera,
+                         parameters.slack_m + moved_m});
+        break;
+      }
+  }
+  return pairs;
+}
+
+/// What a pair says of a point of the view's camera frame.
+Says judge(const Pair& pair, const Camera& camera, const Vec3& point,
            const ContradictionParameters& parameters) {
+  const Vec3 p = pair.there_from_here * point;
   if (!(p.z >= parameters.min_depth_m && p.z <= parameters.max_depth_m)) return Says::nothing;
   const Pixel image = camera.project(p);
   if (!(image.u > -0.5 && image.v > -0.5 && image.u < camera.width - 0.5 && image.v < camera.height - 0.5))
     return Says::nothing;
   const int u = static_cast<int>(std::lround(image.u)), v = static_cast<int>(std::lround(image.v));
   const auto tolerance_m = [&](double there_m) {
-    const double own = depth_m * depth_m, other = there_m * there_m;
-    return parameters.slack_m + parameters.sigmas * parameters.noise * std::sqrt(own * own + other * other);
+    return pair.slack_m +
+           parameters.sigmas * parameters.noise * std::hypot(point.z * point.z, there_m * there_m);
   };
-  const double nearest_m = reference.nearest.at<std::uint16_t>(v, u) / camera.depth_scale;
+  const auto depth_m = [&](const cv::Mat& depth) {
+    return depth.at<std::uint16_t>(v, u) / camera.depth_scale;
+  };
+  const double nearest_m = depth_m(pair.window.nearest);
   if (nearest_m > p.z + tolerance_m(nearest_m)) return Says::through;
-  const double farthest_m = reference.farthest.at<std::uint16_t>(v, u) / camera.depth_scale;
-  const double tolerance = tolerance_m(p.z);
   // Where the nearest is not known the pixel itself decides.
-  const double before_m =
-      nearest_m > 0 ? nearest_m : reference.depth.at<std::uint16_t>(v, u) / camera.depth_scale;
-  return before_m > 0 && before_m <= p.z + tolerance && farthest_m >= p.z - tolerance ? Says::hit
-                                                                                      : Says::nothing;
+  const double before_m = nearest_m > 0 ? nearest_m : depth_m(pair.reference.depth);
+  const double tolerance = tolerance_m(p.z);
+  const bool around =
+      before_m > 0 && before_m <= p.z + tolerance && depth_m(pair.window.farthest) >= p.z - tolerance;
+  return around ? Says::hit : Says::nothing;
 }
 
 }  // namespace
 
 Reference reference_of(const View& view, const Camera& camera, const ContradictionParameters& parameters) {
-  const int reach = std::max(1, static_cast<int>(std::lround(parameters.slack_rad * camera.fx)));
-  const cv::Mat window = cv::Mat::ones(2 * reach + 1, 2 * reach + 1, CV_8UC1);
-  Reference reference{view.world_from_camera.inverse(), view.depth, {}, {}};
+  Reference reference{view.world_from_camera.inverse(), view.speed, view.depth, {}};
   cv::Mat still = view.depth.clone();
-  if (!view.dynamic.empty()) still.setTo(0, view.dynamic != 0);
-  cv::dilate(still, reference.farthest, window);
-  cv::erode(view.depth, reference.nearest, window, {-1, -1}, 1, cv::BORDER_CONSTANT, 0);
+  if (!view.dynamic.empty()) still.setTo(0, view.dynamic != kStatic);
+  for (std::size_t w = 0; w < kReaches.size(); ++w) {
+    const int reach =
+        std::max(1, static_cast<int>(std::lround(kReaches[w] * parameters.slack_rad * camera.fx)));
+    const cv::Mat window = cv::Mat::ones(2 * reach + 1, 2 * reach + 1, CV_8UC1);
+    cv::dilate(still, reference.windows[w].farthest, window);
+    cv::erode(view.depth, reference.windows[w].nearest, window, {-1, -1}, 1, cv::BORDER_CONSTANT, 0);
+  }
   return reference;
 }
 
@@ -64,9 +98,7 @@ Verdicts verdicts_of(const View& view, std::span<const Reference* const> referen
   const int columns = view.depth.cols / kStep_px, rows = view.depth.rows / kStep_px;
   Verdicts verdicts{cv::Mat(rows, columns, CV_8UC1, cv::Scalar(0)),
                     cv::Mat(rows, columns, CV_8UC1, cv::Scalar(0))};
-  std::vector<Pose> there_from_here;
-  for (const Reference* reference : references)
-    there_from_here.push_back(reference->camera_from_world * view.world_from_camera);
+  const std::vector<Pair> pairs = pairs_of(view, references, parameters);
   const auto count = [](std::uint8_t& votes) { votes += votes < kMostVotes ? 1 : 0; };
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
@@ -77,8 +109,8 @@ Verdicts verdicts_of(const View& view, std::span<const Reference* const> referen
       if (is_edge(view.depth, x, y, step_m * camera.depth_scale)) continue;
       const Ray& ray = rays[static_cast<std::size_t>(y) * camera.width + x];
       const Vec3 point{ray.x * z, ray.y * z, z};
-      for (std::size_t i = 0; i < references.size(); ++i) {
-        const Says says = judge(*references[i], camera, there_from_here[i] * point, z, parameters);
+      for (const Pair& pair : pairs) {
+        const Says says = judge(pair, camera, point, parameters);
         if (says == Says::through) count(verdicts.through.at<std::uint8_t>(row, column));
         if (says == Says::hit) count(verdicts.hits.at<std::uint8_t>(row, column));
       }

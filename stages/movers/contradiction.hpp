@@ -1,8 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <opencv2/core.hpp>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,25 +15,41 @@ struct ContradictionParameters {
   double noise = 0.0014;     ///< deviation of a depth at 1 m; grows with the square of the depth
   double sigmas = 4;         ///< of that noise by which two depths may differ
   double slack_m = 0.03;     ///< for the poses, at any depth
-  double slack_rad = 0.008;  ///< for the poses' rotation and the shutter: the window that must be clear
+  double slack_rad = 0.008;  ///< for the poses' rotation: reach of the window that must be clear as a whole
+  /// Seconds between the instant that a pose is of and that at which a pixel was taken: sensors read row by
+  /// row, and take depth and colour one after the other. Times the camera's speeds it adds to both slacks.
+  double lag_s = 0.03;
   double min_depth_m = 0.4, max_depth_m = 4.5;
 };
 
 constexpr int kStep_px = 2;  ///< of the grid of pixels that are judged
 
+/// How fast the camera moves and turns.
+struct Speed {
+  double m_s = 0, rad_s = 0;
+};
+
 /// One look at the scene.
 struct View {
   Pose world_from_camera;
+  Speed speed;
   cv::Mat depth;    ///< CV_16UC1, 0 = no value
   cv::Mat dynamic;  ///< CV_8UC1; what moves there confirms nothing
 };
 
+/// Reaches of the windows, as multiples of slack_rad. A pair of views that needs a larger one says nothing.
+constexpr std::array<int, 3> kReaches{1, 2, 4};
+
 /// A view that others are compared with.
 struct Reference {
+  struct Window {
+    cv::Mat farthest;  ///< of the static depths in the window around each pixel
+    cv::Mat nearest;   ///< of all depths in it, 0 if a pixel has none
+  };
   Pose camera_from_world;
-  cv::Mat depth;     ///< CV_16UC1
-  cv::Mat farthest;  ///< of the static depths in the window around each pixel
-  cv::Mat nearest;   ///< of all depths in it, 0 if a pixel has none
+  Speed speed;
+  cv::Mat depth;  ///< CV_16UC1
+  std::array<Window, kReaches.size()> windows;
 };
 Reference reference_of(const View& view, const Camera& camera, const ContradictionParameters& parameters);
 
@@ -45,7 +61,7 @@ struct Verdicts {
 
 /// Projects every pixel of the grid that has a depth into the references. One sees through it if every pixel
 /// of the window around its image has a depth and all of them lie behind it by more than the tolerance
-/// (`slack_m` and `sigmas` deviations of both depths). One sees it if it does not, and the window's depths
+/// (the slack and `sigmas` deviations of both depths). One sees it if it does not, and the window's depths
 /// reach from before it to behind it, or to within the tolerance of it, by static pixels. What is hidden, on
 /// an edge or outside tells nothing. `rays` are those of the camera.
 Verdicts verdicts_of(const View& view, std::span<const Reference* const> references, const Camera& camera,

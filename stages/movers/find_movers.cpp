@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t kBatch = 16;
 constexpr std::size_t kWitnesses = 2;     ///< frames on either side
 constexpr double kWitnessPause_s = 0.25;  ///< frames further apart bear no witness
+constexpr int kOutline_px = 5;            ///< pixels near the outlines that the grid leaves open
 constexpr double kFastest_px_s =
     900;  ///< across the image, that a mover may have besides the camera's motion
 
@@ -79,8 +80,18 @@ class Search {
       throw std::runtime_error("no frame of the sequence has a pose in the trajectory: nothing contradicts");
   }
 
+  /// From the poses of the frames before and after.
+  Speed speed_of(std::size_t i) const {
+    const std::size_t before = i - std::min<std::size_t>(i, 1), after = std::min(i + 1, stamps_.size() - 1);
+    const auto from = poses_.pose_of(stamps_[before]), to = poses_.pose_of(stamps_[after]);
+    const double seconds = stamps_[after].stamp_s - stamps_[before].stamp_s;
+    if (!from || !to || !(seconds > 0)) return {};
+    const Pose moved = from->inverse() * *to;
+    return {norm(moved.translation) / seconds, rotation_angle(moved) / seconds};
+  }
+
   View read_view(std::size_t i) const {
-    View view{poses_.pose_of(stamps_[i]).value_or(Pose{}), sequence_.depth(i), {}};
+    View view{poses_.pose_of(stamps_[i]).value_or(Pose{}), speed_of(i), sequence_.depth(i), {}};
     const std::string& stamp = stamps_[i].stamp;
     view.dynamic =
         dynamic_.has(stamp) ? dynamic_.read(stamp) : cv::Mat(view.depth.size(), CV_8UC1, cv::Scalar(kStatic));
@@ -153,8 +164,9 @@ class Search {
     const std::size_t begin = finished_;
     std::vector<std::uint64_t> added(std::max(end, begin) - begin);
     tbb::parallel_for(begin, std::max(begin, end), [&](std::size_t i) {
-      cv::Mat full, mask = looks_[i - begin_].view.dynamic.clone();
-      cv::resize(confirmed(i), full, mask.size(), 0, 0, cv::INTER_NEAREST);
+      const View& view = looks_[i - begin_].view;
+      cv::Mat mask = view.dynamic.clone();
+      cv::Mat full = outlined(confirmed(i), view.depth, sequence_.camera().depth_scale, kOutline_px);
       full &= mask == kStatic;
       mask.setTo(kNonPriorDynamic, full);
       added[i - begin] = static_cast<std::uint64_t>(cv::countNonZero(full));

@@ -23,6 +23,9 @@ int main(int argc, char** argv) {
   stage.tunes("slack_m", contradiction.slack_m, "metres more, for the poses", {0, 10});
   stage.tunes("slack_rad", contradiction.slack_rad,
               "reach of the window that must be seen through as a whole", {0, 1});
+  stage.tunes("lag_s", contradiction.lag_s,
+              "between the instants of a pose and of a pixel; times the camera's speed it adds to the slack",
+              {0, 1});
   stage.tunes("min_depth_m", contradiction.min_depth_m, "nearer pixels are not judged", {0, 1000});
   stage.tunes("max_depth_m", contradiction.max_depth_m, "farther pixels are not judged", {0, 1000});
   stage.tunes("min_views", parameters.regions.min_views, "frames that must see through a pixel", {1, 250});

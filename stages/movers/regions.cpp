@@ -71,6 +71,28 @@ cv::Mat regions_of(const Verdicts& verdicts, const cv::Mat& depth, double depth_
   return regions;
 }
 
+cv::Mat outlined(const cv::Mat& regions, const cv::Mat& depth, double depth_scale, int reach_px) {
+  cv::Mat mask, nearest, farthest, inside;
+  cv::resize(regions, mask, depth.size(), 0, 0, cv::INTER_NEAREST);
+  if (cv::countNonZero(mask) == 0) return mask;
+  const cv::Mat window = cv::Mat::ones(2 * reach_px + 1, 2 * reach_px + 1, CV_8UC1);
+  inside = cv::Mat(depth.size(), CV_16UC1, cv::Scalar(0));
+  depth.copyTo(inside, mask);
+  cv::dilate(inside, farthest, window);
+  inside.setTo(65535, inside == 0);
+  cv::erode(inside, nearest, window);
+  for (int y = 0; y < mask.rows; ++y)
+    for (int x = 0; x < mask.cols; ++x) {
+      const double here = depth.at<std::uint16_t>(y, x);
+      if (mask.at<std::uint8_t>(y, x) || here == 0 || farthest.at<std::uint16_t>(y, x) == 0) continue;
+      const double tolerance = 0.02 * depth_scale + 0.01 * here;
+      if (here >= nearest.at<std::uint16_t>(y, x) - tolerance &&
+          here <= farthest.at<std::uint16_t>(y, x) + tolerance)
+        mask.at<std::uint8_t>(y, x) = 255;
+    }
+  return mask;
+}
+
 cv::Mat confirmed_by(const cv::Mat& regions, const View& view, const cv::Mat& regions_there,
                      const View& there, const Camera& camera, const std::vector<Ray>& rays, int reach_px) {
   cv::Mat near, labels;

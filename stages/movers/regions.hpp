@@ -17,6 +17,10 @@ struct RegionParameters {
 cv::Mat regions_of(const Verdicts& verdicts, const cv::Mat& depth, double depth_scale,
                    const RegionParameters& parameters);
 
+/// A mask of the image (255) from regions of the grid: the pixels of its cells, and those within `reach_px`
+/// that go on at their depth. The grid leaves outlines open, as depths are not trusted there.
+cv::Mat outlined(const cv::Mat& regions, const cv::Mat& depth, double depth_scale, int reach_px);
+
 /// Those regions of a view of which another view shows at least half, moved by no more than `reach_px`: a
 /// region of `there` (or what is masked there) lies near where each pixel would be if it stood still.
 /// Returns a label image's kept regions as a mask: 255 where the region is confirmed.
