@@ -18,7 +18,7 @@ struct ContradictionParameters {
   double slack_rad = 0.008;  ///< for the poses' rotation: reach of the window that must be clear as a whole
   /// Seconds between the instant that a pose is of and that at which a pixel was taken: sensors read row by
   /// row, and take depth and colour one after the other. Times the camera's speeds it adds to both slacks.
-  double lag_s = 0.03;
+  double lag_s = 0.02;
   double min_depth_m = 0.4, max_depth_m = 4.5;
 };
 

@@ -6,8 +6,8 @@ namespace sediment::movers {
 
 struct RegionParameters {
   int min_views = 3;        ///< that see through a pixel, for it to be the seed of a region
-  double min_share = 0.6;   ///< of the views that tell something about it, more than this
-  double grow_share = 0.3;  ///< pixels with more than this join a seed that they lie beside
+  double min_share = 0.5;   ///< of the views that tell something about it, more than this
+  double grow_share = 0.2;  ///< pixels with more than this join a seed that they lie beside
   double min_area = 0.001;  ///< of the image; smaller regions are speckle
 };
 
