@@ -22,9 +22,8 @@ double margin_units(double depth_units, double depth_scale) {
 
 cv::Mat grow_over_halo(const cv::Mat& dynamic, const cv::Mat& depth, double depth_scale, int halo_px) {
   if (halo_px <= 0) return dynamic;
-  cv::Mat value_near, value_next, background = depth.clone();
+  cv::Mat value_near, background = depth.clone();
   cv::dilate(dynamic, value_near, square(halo_px));
-  cv::dilate(dynamic, value_next, square(halo_px / 2));
   background.setTo(0, dynamic != kStatic);
   cv::dilate(background, background, square(2 * halo_px));
 
@@ -35,10 +34,7 @@ cv::Mat grow_over_halo(const cv::Mat& dynamic, const cv::Mat& depth, double dept
       auto& value = grown.at<std::uint8_t>(y, x);
       if (value != kStatic || near == kStatic) continue;
       const int here = depth.at<std::uint16_t>(y, x), behind = background.at<std::uint16_t>(y, x);
-      if (here == 0)
-        value = value_next.at<std::uint8_t>(y, x);
-      else if (here + margin_units(behind, depth_scale) < behind)
-        value = near;
+      if (here > 0 && here + margin_units(behind, depth_scale) < behind) value = near;
     }
   return grown;
 }

@@ -6,9 +6,8 @@ namespace sediment::interaction_mask {
 
 /// Grows a dynamic mask (CV_8UC1 of DynamicValue) over the seam around what moves, where the depth image
 /// mixes foreground and background: static pixels within `halo_px` (a square) of a dynamic one that lie
-/// before the background there, the farthest static depth within twice that distance; and within half of
-/// `halo_px` those that have no depth: a step of the depth leaves them on both of its sides. They get the
-/// larger value near them.
+/// before the background there, the farthest static depth within twice that distance. They get the larger
+/// value near them. Pixels without depth stay as they are: they put nothing into a map.
 cv::Mat grow_over_halo(const cv::Mat& dynamic, const cv::Mat& depth, double depth_scale, int halo_px);
 
 }  // namespace sediment::interaction_mask

@@ -30,8 +30,8 @@ int main(int argc, char** argv) {
   stage.tunes("memory", parameters.motions.memory, "frames between a touch and the motion that belongs to it",
               {0, 10000});
   stage.tunes("margin", parameters.motions.margin, "frames more on either side of a motion", {0, 1000});
-  stage.tunes("halo_px", parameters.halo_px,
-              "width of the seam of mixed or missing depth that joins what moves", {0, 50});
+  stage.tunes("halo_px", parameters.halo_px, "width of the seam of mixed depth that joins what moves",
+              {0, 50});
   stage.tunes("preview", parameters.preview, "also write preview/STAMP.png: depth, prior mask, final mask");
 
   return stage.run(argc, argv, [&](contract::Work& work) {
