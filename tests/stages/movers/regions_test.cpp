@@ -11,7 +11,7 @@ using namespace sediment::movers;
 namespace {
 
 constexpr double kScale = 5000;
-const Camera kCamera{160, 120, 150, 150, 79.5, 59.5, {}, kScale};
+const Camera kSmallCamera{160, 120, 150, 150, 79.5, 59.5, {}, kScale};
 const cv::Rect kThing(20, 15, 20, 15);  ///< cells
 
 Verdicts verdicts_with(const cv::Rect& cells, int through, int hits) {
@@ -66,7 +66,7 @@ TEST_CASE("another frame confirms a region that it shows nearby or has masked, a
   here(kThing) = 255;
   View view{{}, {}, depth_with(kThing, 1.5), cv::Mat(120, 160, CV_8UC1, cv::Scalar(kStatic))}, other = view;
   const auto confirmed = [&] {
-    return cv::countNonZero(confirmed_by(here, view, there, other, kCamera, rays_of(kCamera), 8));
+    return cv::countNonZero(confirmed_by(here, view, there, other, kSmallCamera, rays_of(kSmallCamera), 8));
   };
   CHECK(confirmed() == 0);
   there(kThing + cv::Point(3, 0)) = 255;
