@@ -50,9 +50,10 @@ int main(int argc, char** argv) {
               {1e-6, 1});
   stage.tunes("pixel_noise_px", parameters.pixel_noise_px,
               "standard deviation of a feature's position, pixels", {0.01, 10});
-  stage.tunes("passes", parameters.passes,
-              "at most: of measuring and adjusting the map, until the timing of the sensor is settled",
-              {1, 20});
+  stage.tunes(
+      "passes", parameters.passes,
+      "at most: of measuring and adjusting the map, until the timing of the sensor is settled; 0: none",
+      {0, 20});
   stage.tunes("min_coverage", parameters.min_coverage, "an error if a smaller share of the frames has a pose",
               {0, 1});
   stage.tunes("diagnostics", parameters.diagnostics,
