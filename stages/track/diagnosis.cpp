@@ -44,8 +44,7 @@ double path_length_m(const Trajectory& poses) {
   return length_m;
 }
 
-}  // namespace
-
+// The value below which this share of the values is; 0 of none. Changes the order of the values.
 float quantile(std::vector<float>& values, double share) {
   if (values.empty()) return 0;
   const auto at =
@@ -53,6 +52,8 @@ float quantile(std::vector<float>& values, double share) {
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
+
+}  // namespace
 
 Diagnosis diagnose(const Map& map, const Pinhole& pinhole) {
   Diagnosis diagnosis;

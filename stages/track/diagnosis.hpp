@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "stages/track/track.hpp"
 #include "stages/track/tracker.hpp"
@@ -14,8 +13,5 @@ Diagnosis diagnose(const Map& map, const Pinhole& pinhole);
 /// What a person wants to know of a tracked recording, in lines of text: coverage and where it was lost, the
 /// map, the fit, the weakest frames.
 std::string summary_of(const Tracked& tracked);
-
-/// The value below which this share of the values is; 0 of none. Changes the order of the values.
-float quantile(std::vector<float>& values, double share);
 
 }  // namespace sediment::track

@@ -22,7 +22,6 @@ double depth_delay_s(const Recording& recording, std::size_t frame_idx) {
 // What a pass has learned about the frames, for the next one.
 struct Hindsight {
   std::vector<std::shared_ptr<const FrameFeatures>> features;
-  std::vector<std::shared_ptr<const DenseFrame>> dense;
   std::vector<Motion> motions;
   SensorTiming timing;
 };
@@ -46,7 +45,6 @@ Hindsight learn(const Recording& recording, Tracker& tracker, const SensorTiming
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const TrackedFrame& frame = tracker.frames()[i];
     hindsight.features.push_back(frame.features);
-    hindsight.dense.push_back(frame.dense);
     if (!frame.tracked) continue;
     poses[i] = camera_from_world(frame, tracker.map()).inverse();
     known[i] = &poses[i];

@@ -10,8 +10,8 @@
 
 namespace sediment::voxel {
 
-/// Room for points, not initialised. In huge pages where the system has them: else a third of the time goes
-/// into asking for memory page by page.
+/// Room for points, not initialised. In huge pages where the system has them: asking for memory page by
+/// page takes time that shows.
 class PointBuffer {
  public:
   PointBuffer() = default;
