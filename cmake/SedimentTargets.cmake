@@ -13,6 +13,12 @@ function(sediment_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${SEDIMENT_TOGETHER} UNITY_BUILD_BATCH_SIZE 8)
 endfunction()
 
+# sediment_optimise_lightly(TARGET): for code whose compilation takes longer than its work: tests, and the flags of tools,
+# which are mostly templates of the library that parses them.
+function(sediment_optimise_lightly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # sediment_library(NAME LINKS target... SOURCES file...)
 function(sediment_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
@@ -39,6 +45,7 @@ function(sediment_tool name)
   endif()
   add_executable(${name} main.cpp)
   target_link_libraries(${name} PRIVATE sediment_rules sediment_artifacts CLI11::CLI11)
+  sediment_optimise_lightly(${name})  # main.cpp alone
   if(arg_SOURCES)
     target_link_libraries(${name} PRIVATE tool_${name})
   endif()
@@ -51,6 +58,7 @@ function(sediment_test name)
   add_executable(test_${name} ${arg_SOURCES})
   target_link_libraries(test_${name} PRIVATE sediment_rules test_support ${arg_LINKS})
   sediment_compile_together(test_${name})
+  sediment_optimise_lightly(test_${name})
   catch_discover_tests(test_${name} TEST_PREFIX "${name}: " DISCOVERY_MODE PRE_TEST
                        PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: needs" TIMEOUT 600)
 endfunction()

@@ -89,7 +89,8 @@ void write_trajectory(const std::filesystem::path& folder, const Trajectory& tra
                     {"keyframe", frame.keyframe},
                     {"matches", frame.matches},
                     {"inliers", frame.inliers},
-                    {"residual_px", frame.residual_px}});
+                    {"residual_px", frame.residual_px},
+                    {"segment", frame.segment}});
   }
   Trajectory keyframes;
   for (const StampedPose& pose : trajectory)
@@ -112,7 +113,7 @@ std::vector<FrameTracking> read_tracking(const std::filesystem::path& folder) {
     if (state != "tracked" && state != "lost") throw std::runtime_error("unknown state \"" + state + "\"");
     frames.push_back({stamp, state == "tracked" ? TrackingState::tracked : TrackingState::lost,
                       json.at("keyframe").get<bool>(), json.value("matches", 0), json.value("inliers", 0),
-                      json.value("residual_px", 0.0)});
+                      json.value("residual_px", 0.0), json.value("segment", -1)});
   });
   return frames;
 }

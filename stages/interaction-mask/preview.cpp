@@ -2,13 +2,12 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/scene/frame.hpp"
+#include "pipeline/scene/dynamic_picture.hpp"
 
 namespace sediment::interaction_mask {
 namespace {
 
 constexpr double kFarthestShown_m = 5;
-const cv::Vec3b kPriorBgr(40, 40, 230), kNonPriorBgr(0, 150, 255);
 
 cv::Mat shade(const cv::Mat& depth, double depth_scale) {
   cv::Mat nearness, shaded;
@@ -20,19 +19,13 @@ cv::Mat shade(const cv::Mat& depth, double depth_scale) {
   return shaded;
 }
 
-void tint(cv::Mat image, const cv::Mat& where, cv::Vec3b bgr) {
-  cv::Mat tinted;
-  cv::addWeighted(image, 0.45, cv::Mat(image.size(), CV_8UC3, cv::Scalar(bgr)), 0.55, 0, tinted);
-  tinted.copyTo(image, where);
-}
-
 }  // namespace
 
 cv::Mat preview_of(const cv::Mat& color, const cv::Mat& depth, double depth_scale, const cv::Mat& dynamic) {
-  cv::Mat prior = color.clone(), both = color.clone(), preview;
-  tint(prior, dynamic == kPriorDynamic, kPriorBgr);
-  tint(both, dynamic == kPriorDynamic, kPriorBgr);
-  tint(both, dynamic == kNonPriorDynamic, kNonPriorBgr);
+  cv::Mat prior = color.clone(), preview;
+  tint_dynamic(prior, dynamic, kPriorDynamic);
+  cv::Mat both = prior.clone();
+  tint_dynamic(both, dynamic, kNonPriorDynamic);
   cv::hconcat(std::vector<cv::Mat>{shade(depth, depth_scale), prior, both}, preview);
   return preview;
 }

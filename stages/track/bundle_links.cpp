@@ -9,7 +9,6 @@ namespace {
 
 using RowMajor6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 constexpr double kTimingWeight = 30 * 30;  // 1/s^2
-constexpr double kChiSquare6 = 12.592;     // 95 % bound with 6 degrees of freedom
 
 }  // namespace
 

@@ -5,6 +5,8 @@
 
 namespace sediment::track {
 
+inline constexpr double kChiSquare6 = 12.592;  ///< 95 % bound with 6 degrees of freedom
+
 /// Huber's loss of a squared residual, quadratic up to `bound`.
 inline double huber(double squares, double bound) {
   return squares <= bound ? squares : 2 * std::sqrt(bound * squares) - bound;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "pipeline/artifacts/image_file.hpp"
+#include "pipeline/artifacts/trajectory_file.hpp"
 #include "stages/track/diagnosis.hpp"
 #include "stages/track/diagnosis_pictures.hpp"
 
@@ -15,6 +16,13 @@ void write_summary(const std::filesystem::path& file, const Tracked& tracked) {
   out << summary_of(tracked);
   out.close();
   if (!out) throw std::runtime_error("cannot write " + file.string());
+}
+
+void write_segments(const std::filesystem::path& folder, const std::vector<Trajectory>& apart) {
+  if (apart.empty()) return;
+  std::filesystem::create_directories(folder);
+  for (std::size_t i = 0; i < apart.size(); ++i)
+    write_tum_trajectory(folder / (std::to_string(i + 1) + ".txt"), apart[i]);
 }
 
 void write_diagnostics(const std::filesystem::path& folder, const Recording& recording,

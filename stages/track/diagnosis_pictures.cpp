@@ -5,20 +5,15 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/scene/dynamic_picture.hpp"
+
 namespace sediment::track {
 namespace {
 
-const cv::Scalar kPriorBgr(40, 40, 230), kNonPriorBgr(0, 150, 255), kHeldBgr(60, 220, 60),
-    kOtherBgr(170, 170, 170);
+const cv::Scalar kHeldBgr(60, 220, 60), kOtherBgr(170, 170, 170);
 const cv::Scalar kInk(40, 40, 40), kBar(200, 150, 90), kCurve(40, 40, 200);
 constexpr int kBins = 60, kLeft = 20, kBottom = 40, kTop = 40;
 const cv::Size kPanel(kBins * 10 + 2 * kLeft, 360);
-
-void tint(cv::Mat image, const cv::Mat& where, const cv::Scalar& bgr) {
-  cv::Mat tinted;
-  cv::addWeighted(image, 0.6, cv::Mat(image.size(), CV_8UC3, bgr), 0.4, 0, tinted);
-  tinted.copyTo(image, where);
-}
 
 void write(cv::Mat image, const std::string& text, cv::Point at) {
   cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.45, kInk, 1, cv::LINE_AA);
@@ -64,10 +59,8 @@ cv::Mat histogram(const std::vector<float>& values, double low, double high, con
 
 cv::Mat features_picture(const cv::Mat& color, const cv::Mat& dynamic, const KeyframeFeatures& keyframe) {
   cv::Mat picture = color.clone();
-  if (!dynamic.empty()) {
-    tint(picture, dynamic == kPriorDynamic, kPriorBgr);
-    tint(picture, dynamic == kNonPriorDynamic, kNonPriorBgr);
-  }
+  if (!dynamic.empty())
+    for (const DynamicValue value : {kPriorDynamic, kNonPriorDynamic}) tint_dynamic(picture, dynamic, value);
   for (const bool held : {false, true})
     for (const ShownFeature& feature : keyframe.features)
       if (feature.held == held)

@@ -28,6 +28,7 @@ std::vector<FrameTracking> resample(const Trajectory& given, const std::vector<s
     if (const auto pose = pose_at(given, stamps_s[i], max_gap_s)) {
       frame.state = TrackingState::tracked;
       frame.keyframe = true;
+      frame.segment = 0;
       poses.push_back({stamps[i], stamps_s[i], *pose});
     }
     frames.push_back(std::move(frame));

@@ -54,6 +54,8 @@ int main(int argc, char** argv) {
       "passes", parameters.passes,
       "at most: of measuring and adjusting the map, until the timing of the sensor is settled; 0: none",
       {0, 20});
+  stage.tunes("smoothing", parameters.smoothing,
+              "mode offline: the noise of single poses is taken out of the motion of the camera");
   stage.tunes("min_coverage", parameters.min_coverage, "an error if a smaller share of the frames has a pose",
               {0, 1});
   stage.tunes("diagnostics", parameters.diagnostics,
@@ -80,6 +82,7 @@ int main(int argc, char** argv) {
     work.metrics()["depth_lag_s"] = result.timing.depth_lag_s;
     track::require_coverage(result.frames, parameters.min_coverage);
     write_trajectory(work.out(), result.poses, result.frames);
+    track::write_segments(work.out() / "segments", result.apart);
     track::write_summary(work.out() / "summary.txt", result);
     if (parameters.diagnostics)
       track::write_diagnostics(work.out() / "diagnostics", recording, result.diagnosis);

@@ -21,6 +21,7 @@ struct Parameters {
   double pixel_noise_px = 0.7;  ///< standard deviation of a feature's position at pyramid level 0
   int passes =
       6;  ///< at most: of measuring keyframes and adjusting, until the sensor's timing is settled; 0: none
+  bool smoothing = true;      ///< poses are smoothed in time, as far as their noise goes
   double min_coverage = 0.5;  ///< an error if a smaller share of the frames has a pose
   bool diagnostics = false;   ///< also pictures of the keyframes and of the residuals
   double max_gap_s = 0.1;     ///< engine given: longest gap between poses that is interpolated

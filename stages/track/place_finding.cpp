@@ -5,12 +5,13 @@
 namespace sediment::track {
 
 Located solve_pose(const Map& map, const std::vector<Match>& matches, const FrameFeatures& features,
-                   const Pinhole& pinhole, const Pose& start) {
+                   const Pinhole& pinhole, const Pose& start, std::span<const AlignedView> views) {
   std::vector<Correspondence> correspondences;
   for (const Match& match : matches)
     correspondences.push_back(
         {map.points[match.point_id].position, measurement_of(features.feature(match.feature_idx), pinhole)});
-  Located located{estimate_pose(correspondences, pinhole, start), {}, static_cast<int>(matches.size())};
+  Located located{
+      estimate_pose(correspondences, pinhole, start, views), {}, static_cast<int>(matches.size())};
   for (std::size_t i = 0; i < matches.size(); ++i)
     if (located.estimate.inlier[i]) located.matches.push_back(matches[i]);
   return located;

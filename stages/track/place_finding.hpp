@@ -15,9 +15,10 @@ struct Located {
   int tried = 0;
 };
 
-/// The pose that fits these matches, from a start nearby.
+/// The pose that fits these matches, and `views` of whole images, from a start nearby.
 Located solve_pose(const Map& map, const std::vector<Match>& matches, const FrameFeatures& features,
-                   const Pinhole& pinhole, const Pose& camera_from_world_start);
+                   const Pinhole& pinhole, const Pose& camera_from_world_start,
+                   std::span<const AlignedView> views = {});
 
 /// The pose of a frame from its descriptors alone, against the landmarks of one keyframe; none if fewer than
 /// `least_inliers` agree on one.

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
-#include <utility>
 
+#include "stages/track/collection.hpp"
 #include "stages/track/completion.hpp"
 #include "stages/track/diagnosis.hpp"
 #include "stages/track/finished_map.hpp"
@@ -70,42 +70,6 @@ void run_front_end(const Recording& recording, const std::function<View(std::siz
   tbb::parallel_pipeline(in_flight, read & view & follow);
 }
 
-// The segment with most frames: where others are in its world nobody knows.
-int largest_segment(Tracker& tracker) {
-  std::vector<int> frames_of(tracker.map().keyframes.size() + 1, 0);
-  for (const TrackedFrame& frame : tracker.frames())
-    if (frame.tracked) ++frames_of[tracker.map().keyframes[frame.reference_idx].segment];
-  return static_cast<int>(std::max_element(frames_of.begin(), frames_of.end()) - frames_of.begin());
-}
-
-Tracked collect(const Recording& recording, Tracker& tracker, Mode mode) {
-  Tracked result;
-  Pose world_from_map;
-  const int segment = largest_segment(tracker);
-  for (std::size_t i = 0; i < tracker.frames().size(); ++i) {
-    const TrackedFrame& frame = tracker.frames()[i];
-    FrameTracking entry;
-    entry.stamp = recording.stamps[i];
-    if (frame.tracked && tracker.map().keyframes[frame.reference_idx].segment == segment) {
-      const Pose pose = mode == Mode::causal ? frame.world_from_camera_then
-                                             : camera_from_world(frame, tracker.map()).inverse();
-      if (result.poses.empty()) world_from_map = pose.inverse();
-      result.poses.push_back({recording.stamps[i], recording.stamps_s[i], world_from_map * pose});
-      entry.state = TrackingState::tracked;
-      entry.keyframe = frame.keyframe;
-      entry.matches = frame.matches;
-      entry.inliers = frame.inliers;
-      entry.residual_px = frame.residual_px;
-    }
-    result.frames.push_back(std::move(entry));
-  }
-  for (const MapPoint& point : tracker.map().points) result.landmarks += !point.removed;
-  std::vector<char> segments(tracker.map().keyframes.size(), 0);
-  for (const Keyframe& keyframe : tracker.map().keyframes)
-    result.segments += !std::exchange(segments[keyframe.segment], 1);
-  return result;
-}
-
 }  // namespace
 
 Tracked track(const Recording& recording, const Parameters& parameters,
@@ -129,7 +93,8 @@ Tracked track(const Recording& recording, const Parameters& parameters,
     finished = finish_map(recording, parameters, pinhole, tracker);
   }
   find_lost_frames(tracker, pinhole);
-  refine_frames(tracker, pinhole);
+  refine_frames(tracker, pinhole, dense_camera, parameters.depth_noise);
+  if (parameters.smoothing) smooth_frames(tracker);
   Tracked result = collect(recording, tracker, Mode::offline);
   result.diagnosis = diagnose(tracker.map(), pinhole);
   result.timing = finished.timing;

@@ -44,6 +44,7 @@ struct Diagnosis {
 /// What came out of tracking.
 struct Tracked {
   Trajectory poses;                   ///< of the frames that have one; the first one's camera is the world
+  std::vector<Trajectory> apart;      ///< parts that could not be joined to `poses`, each in its own world
   std::vector<FrameTracking> frames;  ///< one a frame of the recording
   std::size_t landmarks = 0;
   int segments = 0;  ///< parts of the recording that could not be joined; poses are those of the largest

@@ -24,7 +24,8 @@ struct TrackedFrame {
   Pose camera_from_reference;
   int matches = 0, inliers = 0;
   double residual_px = 0;
-  Pose world_from_camera_then;  ///< as the front end had it at that time
+  double deviation_rad = 0, deviation_m = 0;  ///< as PoseEstimate
+  Pose world_from_camera_then;                ///< as the front end had it at that time
 };
 
 /// What tracking takes from a frame's images.
@@ -48,6 +49,7 @@ class Tracker {
   void track(double stamp_s, const View& view);
 
   Map& map() { return map_; }
+  const Map& map() const { return map_; }
   std::vector<TrackedFrame>& frames() { return frames_; }
   const std::vector<TrackedFrame>& frames() const { return frames_; }
 

@@ -20,7 +20,7 @@ each_stage_alone() {
   mkdir -p "$tmp/threads$1"
   alone "$1" segment --sequence "$SEQUENCE" --masks "$MASKS" --engine given &&
     alone "$1" interaction-mask --sequence "$SEQUENCE" --masks "$a/segment" &&
-    alone "$1" track --sequence "$SEQUENCE" --dynamic "$a/interaction-mask" --still_features false &&
+    alone "$1" track --sequence "$SEQUENCE" --dynamic "$a/interaction-mask" --still_features false --smoothing false &&
     alone "$1" fuse --sequence "$SEQUENCE" --masks "$a/segment" --dynamic "$a/interaction-mask" --trajectory "$a/track" &&
     alone "$1" sor --cloud "$a/fuse" &&
     alone "$1" voxel --cloud "$a/sor" &&

@@ -117,8 +117,6 @@ void hang_few_fittings(Workshop& w) {
   const int leaf = w.sheet(plaster(w.random.next(), {.82f, .81f, .78f}, 0.015), 0.9, 2.0);
   hang_door(w, back, -1.9, leaf);
   fix_socket(w, back, -1.15, 1.05);
-  fix_socket(w, back, 0.25, 0.35);
-  fix_socket(w, back, 0.8, 1.1);
   hang_radiator(w, back, 2.2);
 }
 

@@ -86,9 +86,9 @@ TEST_CASE("the trajectory folder holds all poses, the keyframes and what trackin
   const Trajectory poses = some_poses();
   std::vector<FrameTracking> frames;
   for (const StampedPose& pose : poses)
-    frames.push_back({pose.stamp, TrackingState::tracked, false, 100, 90, 0.5});
+    frames.push_back({pose.stamp, TrackingState::tracked, false, 100, 90, 0.5, 0});
   frames[0].keyframe = frames[3].keyframe = true;
-  frames.push_back({"1305031103", TrackingState::lost, false, 3, 0, 0});
+  frames.push_back({"1305031103", TrackingState::lost, false, 3, 0, 0, 2});
   write_trajectory(folder.path(), poses, frames);
   CHECK(read_trajectory(folder.path()).size() == 5);
   const Trajectory keyframes = read_keyframes(folder.path());
@@ -101,6 +101,8 @@ TEST_CASE("the trajectory folder holds all poses, the keyframes and what trackin
   CHECK(tracking[4].state == TrackingState::tracked);
   CHECK(tracking[5].state == TrackingState::lost);
   CHECK(tracking[5].stamp == "1305031103");
+  CHECK(tracking[4].segment == 0);
+  CHECK(tracking[5].segment == 2);
   frames.back().keyframe = true;
   CHECK_THROWS_WITH(write_trajectory(folder.path(), poses, frames),
                     Contains("keyframe 1305031103 has no pose"));

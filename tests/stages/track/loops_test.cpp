@@ -69,7 +69,7 @@ TEST_CASE(
   CHECK(position_error_m(tracked, truth) < 0.012);
 }
 
-TEST_CASE("a stretch whose place in the world nobody knows has no poses") {
+TEST_CASE("a stretch whose place in the world nobody knows has no poses in it but a world of its own") {
   const auto truth = looking(joined(from_to(0, 0.2, 30), from_to(kTurn / 2, kTurn / 2 + 0.2, 20)));
   const auto tracked =
       run(record_box_room(truth, small_camera(), kinect([](std::size_t i) { return i >= 24 && i < 32; })));
@@ -77,6 +77,15 @@ TEST_CASE("a stretch whose place in the world nobody knows has no poses") {
   CHECK(tracked.poses.size() == 24);
   for (std::size_t i = 0; i < truth.size(); ++i)
     CHECK((tracked.frames[i].state == TrackingState::tracked) == (i < 24));
+  REQUIRE(tracked.apart.size() == 1);
+  REQUIRE(tracked.apart.front().size() == 18);
+  for (std::size_t i = 32; i < truth.size(); ++i) {
+    CHECK(tracked.frames[i].segment == 1);
+    const Pose pose = tracked.apart.front()[i - 32].world_from_camera, exact = truth[32].inverse() * truth[i];
+    CHECK(norm(pose.translation - exact.translation) < 0.012);
+  }
+  CHECK(tracked.frames[0].segment == 0);
+  CHECK(tracked.frames[28].segment == -1);
 }
 
 TEST_CASE("a causal pose does not know what comes after it") {

@@ -48,6 +48,7 @@ Tracked track_with(const Recording& recording, bool still_features) {
   Parameters parameters;
   parameters.features = 700;
   parameters.still_features = still_features;
+  parameters.smoothing = false;  // it would hide what the features do to single poses
   return track::track(recording, parameters, {});
 }
 
