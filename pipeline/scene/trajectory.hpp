@@ -29,8 +29,8 @@ struct FrameTracking {
   int matches = 0;         ///< correspondences with the map tried in the last pose estimation
   int inliers = 0;         ///< of those, the ones that fit
   double residual_px = 0;  ///< root mean square reprojection error of the inliers
-  /// Which world its pose is of: 0 that of the trajectory, others are parts of the recording that could not be
-  /// joined to it (their frames are lost to it); -1 none.
+  /// Which world its pose is of: 0 that of the trajectory, others are parts of the recording that could not
+  /// be joined to it (their frames are lost to it); -1 none.
   int segment = -1;
 };
 
