@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace sediment {
@@ -63,6 +64,13 @@ Pose rotation_from(Vec3 axis_angle_rad) {
   if (angle < 1e-12) return {};
   const Vec3 axis = axis_angle_rad / angle;
   return pose_of(Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d(axis.x, axis.y, axis.z))), {});
+}
+
+Vec3 rotation_vector(const Pose& pose) {
+  const Quaternion q = quaternion_of(pose);
+  const Vec3 axis{q.x, q.y, q.z};
+  const double sine = norm(axis);
+  return (sine > 1e-12 ? 2 * std::atan2(sine, q.w) / sine : 2.0) * axis;
 }
 
 double rotation_angle(const Pose& pose) {

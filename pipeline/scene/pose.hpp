@@ -42,6 +42,9 @@ Quaternion quaternion_of(const Pose& pose);
 /// Rotation by the length of `axis_angle_rad` about its direction (Rodrigues), no translation.
 Pose rotation_from(Vec3 axis_angle_rad);
 
+/// The rotation of a pose as an axis times an angle in radians, 0 .. pi: the inverse of rotation_from.
+Vec3 rotation_vector(const Pose& pose);
+
 /// Angle of the rotation in radians, 0 .. pi. Source: TUM's evaluate_rpe.py, arccos((trace - 1) / 2),
 /// clamped.
 double rotation_angle(const Pose& pose);

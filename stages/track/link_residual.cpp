@@ -20,10 +20,7 @@ RowMajor3 cross_matrix(const Vec3& v) {
 LinkResidual link_residual(const Pose& from, const Pose& to, const Pose& to_from_from) {
   const Pose relative = to * from.inverse();
   const Pose turn = relative * to_from_from.inverse();
-  const Quaternion q = quaternion_of(turn);
-  const Vec3 axis{q.x, q.y, q.z};
-  const double sine = norm(axis);
-  const Vec3 rotation = (sine > 1e-12 ? 2 * std::atan2(sine, q.w) / sine : 2.0) * axis;
+  const Vec3 rotation = rotation_vector(turn);
   const Vec3 translation = relative.translation - to_from_from.translation;
   LinkResidual residual;
   residual.error = {rotation.x, rotation.y, rotation.z, translation.x, translation.y, translation.z};

@@ -1,18 +1,6 @@
 #include "stages/track/sensor_timing.hpp"
 
-#include <cmath>
-
 namespace sediment::track {
-namespace {
-
-Vec3 rotation_vector(const Pose& pose) {
-  const Quaternion q = quaternion_of(pose);
-  const double sine = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z);
-  const double factor = sine > 1e-12 ? 2 * std::atan2(sine, q.w) / sine : 2;
-  return {factor * q.x, factor * q.y, factor * q.z};
-}
-
-}  // namespace
 
 Pose moved(const Motion& motion, double duration_s) {
   Pose pose = rotation_from(duration_s * motion.angular_rad_s);

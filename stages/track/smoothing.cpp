@@ -114,13 +114,6 @@ std::vector<Eigen::RowVector3d> smoothed(const Samples& samples) {
   return drift > 0 ? smoothed_backwards(samples, filter(samples, drift)) : samples.values;
 }
 
-Vec3 rotation_vector(const Pose& pose) {
-  const Quaternion q = quaternion_of(pose);
-  const Vec3 axis{q.x, q.y, q.z};
-  const double sine = norm(axis);
-  return (sine > 1e-12 ? 2 * std::atan2(sine, q.w) / sine : 2.0) * axis;
-}
-
 Eigen::RowVector3d row(const Vec3& v) {
   return {v.x, v.y, v.z};
 }
@@ -136,11 +129,7 @@ std::vector<Pose> smoothed(const std::vector<MeasuredPose>& poses) {
   Eigen::RowVector3d angle = Eigen::RowVector3d::Zero();
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const MeasuredPose& pose = poses[i];
-    if (i > 0) {
-      Pose turn = result[i - 1].inverse() * result[i];
-      turn.translation = {};
-      angle += row(rotation_vector(turn));
-    }
+    if (i > 0) angle += row(rotation_vector(result[i - 1].inverse() * result[i]));
     turned.times_s.push_back(pose.stamp_s);
     turned.values.push_back(angle);
     turned.variances.push_back(pose.deviation_rad * pose.deviation_rad);
