@@ -1,6 +1,7 @@
 #include "pipeline/motion/optical_flow.hpp"
 
 #include <cmath>
+#include <mutex>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 #include <stdexcept>
@@ -10,6 +11,14 @@ namespace {
 
 constexpr double kFlowColumns = 320;
 constexpr int kSmallestSide_px = 16;
+
+/// How OpenCV cuts an image for its threads shows in the flow. Its setNumThreads must not run in two threads
+/// at once, and callers compute many flows in parallel.
+void keep_opencv_to_one_thread() {
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  if (cv::getNumThreads() != 1) cv::setNumThreads(1);
+}
 
 }  // namespace
 
@@ -32,7 +41,7 @@ cv::Mat flow_image(const cv::Mat& color) {
 FlowField flow_between(const cv::Mat& from, const cv::Mat& to, cv::Size full) {
   if (from.size() != to.size() || std::min(from.cols, from.rows) < kSmallestSide_px)
     throw std::invalid_argument("optical flow needs two images of one size, 16 pixels or more to a side");
-  cv::setNumThreads(1);
+  keep_opencv_to_one_thread();
   cv::Mat displacements;
   cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)->calc(from, to, displacements);
   const double scale_x = static_cast<double>(full.width) / from.cols,

@@ -1,7 +1,10 @@
 #include "pipeline/motion/optical_flow.hpp"
 
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <stdexcept>
+#include <thread>
+#include <vector>
 
 #include "tests/pipeline/motion/textured.hpp"
 
@@ -29,6 +32,20 @@ TEST_CASE("flow finds how far a picture was shifted, in pixels of the full image
     }
   CHECK(sum / count < 0.5);
   CHECK(worst < 4);
+}
+
+TEST_CASE("flows are computed by many threads at once") {
+  // Small ones, so that threads meet often where OpenCV's state is shared.
+  const cv::Mat from = flow_image(test::texture({16, 16}, 1)), to = flow_image(test::texture({16, 16}, 2));
+  const cv::Point2f expected = flow_between(from, to, from.size()).at(8, 8);
+  std::atomic<int> others = 0;
+  std::vector<std::jthread> threads(8);
+  for (std::jthread& thread : threads)
+    thread = std::jthread([&] {
+      for (int i = 0; i < 2000; ++i) others += flow_between(from, to, from.size()).at(8, 8) != expected;
+    });
+  threads.clear();
+  CHECK(others == 0);
 }
 
 TEST_CASE("flow is the same at any number of OpenCV's threads") {
