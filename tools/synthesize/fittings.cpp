@@ -116,7 +116,6 @@ void hang_few_fittings(Workshop& w) {
   const Wall back{{0, w.scene.room_high.y, 0}, 0};
   const int leaf = w.sheet(plaster(w.random.next(), {.82f, .81f, .78f}, 0.015), 0.9, 2.0);
   hang_door(w, back, -1.9, leaf);
-  fix_socket(w, back, -1.15, 1.05);
   hang_radiator(w, back, 2.2);
 }
 

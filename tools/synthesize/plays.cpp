@@ -165,7 +165,7 @@ CameraMotion play_bare(Stage stage) {
               {9, 2.3, 1.0, kToLeft},
               {14, -2.4, 0.9, kToLeft},
               {16, -2.4, 0.9, kToRight}});
-  const CameraMotion hand = handheld(stage.motion_seed, {0.05, -1.35, 1.45}, 0, -0.2);
+  const CameraMotion hand = handheld(stage.motion_seed, {0.05, -0.95, 1.45}, 0, -0.2);
   return [=](double t) {
     constexpr double kPeriod = 11, kSwing = 0.45;  // seconds, radians
     return looking({}, kSwing * std::sin(2 * std::numbers::pi * t / kPeriod), 0, 0) *

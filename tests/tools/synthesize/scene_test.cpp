@@ -70,7 +70,7 @@ TEST_CASE("ORB finds features all over the image wherever the camera looks") {
 }
 
 TEST_CASE("`bare` has a corner here and there, in places few, and a person in some frames") {
-  const Recording recording = recording_of("bare", 10, 1, 640, true);
+  const Recording recording = recording_of("bare", 33, 3, 640, true);
   std::size_t fewest = 10000;
   int with_person = 0;
   for (std::size_t i = 0; i < recording.size(); ++i) {
@@ -82,10 +82,11 @@ TEST_CASE("`bare` has a corner here and there, in places few, and a person in so
     fewest = std::min(fewest, features.size());
     with_person += dynamic_share(f) > 0.02;
   }
-  CHECK(fewest > 80);
-  CHECK(fewest < 250);
-  CHECK(with_person >= 2);
-  CHECK(with_person <= 8);
+  CAPTURE(fewest, with_person);
+  CHECK(fewest > 50);
+  CHECK(fewest <= 100);
+  CHECK(with_person >= 5);
+  CHECK(with_person <= 25);
 }
 
 TEST_CASE("in the middle second of `crowd` people hide more than 60 % of the image of a rolled camera") {
