@@ -23,6 +23,8 @@ find_package(Boost REQUIRED)
 add_library(sediment_pcl_io INTERFACE)
 target_include_directories(sediment_pcl_io SYSTEM INTERFACE ${PCL_ROOT_INCLUDE})
 target_link_libraries(sediment_pcl_io INTERFACE ${PCL_IO_LIBRARY} ${PCL_COMMON_LIBRARY} Eigen3::Eigen Boost::headers)
+# As it is where PCL was compiled: what its libraries allocate, Eigen frees here. Eigen would do otherwise under a sanitizer.
+target_compile_definitions(sediment_pcl_io INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 
 add_library(sediment_pcl_filters INTERFACE)
 target_link_libraries(sediment_pcl_filters INTERFACE sediment_pcl_io ${PCL_FILTERS_LIBRARY} ${PCL_SEARCH_LIBRARY}

@@ -51,7 +51,7 @@ bool is_ours(const PcdHeader& header) {
 LabelledCloud cloud_from(const PcdHeader& header, std::string_view records) {
   LabelledCloud cloud(header.points);
   if (is_ours(header)) {
-    std::memcpy(static_cast<void*>(cloud.data()), records.data(), records.size());
+    if (!cloud.empty()) std::memcpy(static_cast<void*>(cloud.data()), records.data(), records.size());
     return cloud;
   }
   const PcdField *x = header.find("x"), *y = header.find("y"), *z = header.find("z");

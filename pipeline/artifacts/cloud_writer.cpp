@@ -60,6 +60,7 @@ PcdWriter::PcdWriter(std::filesystem::path file, PcdEncoding encoding)
 }
 
 void PcdWriter::put(std::string_view bytes) {
+  if (bytes.empty()) return;
   if (!opened_ || std::fwrite(bytes.data(), 1, bytes.size(), opened_.get()) != bytes.size())
     throw std::runtime_error("cannot write " + file_.string() + ": " + std::strerror(errno));
 }
