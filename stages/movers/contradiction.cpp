@@ -23,7 +23,7 @@ bool is_edge(const cv::Mat& depth, int x, int y, double tolerance_units) {
   return false;
 }
 
-enum class Says { nothing, through, hit };
+enum class Says { nothing, through, beyond, hit };
 
 /// One reference as seen from one view.
 struct Pair {
@@ -74,13 +74,14 @@ Says judge(const Pair& pair, const Camera& camera, const Vec3& point,
   const double tolerance = tolerance_m(p.z);
   const bool around =
       before_m > 0 && before_m <= p.z + tolerance && depth_m(pair.window.farthest) >= p.z - tolerance;
-  return around ? Says::hit : Says::nothing;
+  if (around) return Says::hit;
+  return depth_m(pair.reference.depth) > p.z + tolerance ? Says::beyond : Says::nothing;
 }
 
 }  // namespace
 
 Reference reference_of(const View& view, const Camera& camera, const ContradictionParameters& parameters) {
-  Reference reference{view.world_from_camera.inverse(), view.speed, view.depth, {}};
+  Reference reference{view.stamp_s, view.world_from_camera.inverse(), view.speed, view.depth, {}};
   cv::Mat still = view.depth.clone();
   if (!view.dynamic.empty()) still.setTo(0, view.dynamic != kStatic);
   for (std::size_t w = 0; w < kReaches.size(); ++w) {
@@ -96,8 +97,9 @@ Reference reference_of(const View& view, const Camera& camera, const Contradicti
 Verdicts verdicts_of(const View& view, std::span<const Reference* const> references, const Camera& camera,
                      const std::vector<Ray>& rays, const ContradictionParameters& parameters) {
   const int columns = view.depth.cols / kStep_px, rows = view.depth.rows / kStep_px;
-  Verdicts verdicts{cv::Mat(rows, columns, CV_8UC1, cv::Scalar(0)),
-                    cv::Mat(rows, columns, CV_8UC1, cv::Scalar(0))};
+  Verdicts verdicts{
+      cv::Mat(rows, columns, CV_8UC1, cv::Scalar(0)), cv::Mat(rows, columns, CV_8UC1, cv::Scalar(0)),
+      cv::Mat(rows, columns, CV_8UC1, cv::Scalar(0)), cv::Mat(rows, columns, CV_8UC1, cv::Scalar(255))};
   const std::vector<Pair> pairs = pairs_of(view, references, parameters);
   const auto count = [](std::uint8_t& votes) { votes += votes < kMostVotes ? 1 : 0; };
   for (int row = 0; row < rows; ++row)
@@ -109,11 +111,16 @@ Verdicts verdicts_of(const View& view, std::span<const Reference* const> referen
       if (is_edge(view.depth, x, y, step_m * camera.depth_scale)) continue;
       const Ray& ray = rays[static_cast<std::size_t>(y) * camera.width + x];
       const Vec3 point{ray.x * z, ray.y * z, z};
+      bool before = false, after = false;
       for (const Pair& pair : pairs) {
         const Says says = judge(pair, camera, point, parameters);
         if (says == Says::through) count(verdicts.through.at<std::uint8_t>(row, column));
-        if (says == Says::hit) count(verdicts.hits.at<std::uint8_t>(row, column));
+        if (says == Says::beyond) count(verdicts.beyond.at<std::uint8_t>(row, column));
+        if (says != Says::hit) continue;
+        count(verdicts.hits.at<std::uint8_t>(row, column));
+        (pair.reference.stamp_s < view.stamp_s ? before : after) = true;
       }
+      verdicts.lasting.at<std::uint8_t>(row, column) = before && after ? 255 : 0;
     }
   return verdicts;
 }

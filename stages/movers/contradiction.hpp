@@ -31,6 +31,7 @@ struct Speed {
 
 /// One look at the scene.
 struct View {
+  double stamp_s = 0;
   Pose world_from_camera;
   Speed speed;
   cv::Mat depth;    ///< CV_16UC1, 0 = no value
@@ -46,6 +47,7 @@ struct Reference {
     cv::Mat farthest;  ///< of the static depths in the window around each pixel
     cv::Mat nearest;   ///< of all depths in it, 0 if a pixel has none
   };
+  double stamp_s = 0;
   Pose camera_from_world;
   Speed speed;
   cv::Mat depth;  ///< CV_16UC1
@@ -57,6 +59,8 @@ Reference reference_of(const View& view, const Camera& camera, const Contradicti
 struct Verdicts {
   cv::Mat through;  ///< CV_8UC1: how many see through what the pixel shows: it was not there then
   cv::Mat hits;     ///< CV_8UC1: how many see it where it is
+  cv::Mat beyond;   ///< CV_8UC1: how many see what lies behind it, but not all around
+  cv::Mat lasting;  ///< CV_8UC1: 255 where some do so before and some after, or where nothing was asked
 };
 
 /// Projects every pixel of the grid that has a depth into the references. One sees through it if every pixel

@@ -91,7 +91,8 @@ class Search {
   }
 
   View read_view(std::size_t i) const {
-    View view{poses_.pose_of(stamps_[i]).value_or(Pose{}), speed_of(i), sequence_.depth(i), {}};
+    View view{
+        stamps_[i].stamp_s, poses_.pose_of(stamps_[i]).value_or(Pose{}), speed_of(i), sequence_.depth(i), {}};
     const std::string& stamp = stamps_[i].stamp;
     view.dynamic =
         dynamic_.has(stamp) ? dynamic_.read(stamp) : cv::Mat(view.depth.size(), CV_8UC1, cv::Scalar(kStatic));
@@ -138,8 +139,7 @@ class Search {
         if (r != i && near_in_time(r, i, parameters_.reach_s)) others.push_back(&reference);
       const Verdicts verdicts =
           verdicts_of(look.view, others, sequence_.camera(), rays_, parameters_.contradiction);
-      look.regions =
-          regions_of(verdicts, look.view.depth, sequence_.camera().depth_scale, parameters_.regions);
+      look.regions = regions_of(verdicts, look.view, sequence_.camera().depth_scale, parameters_.regions);
     });
   }
 

@@ -3,8 +3,15 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/scene/frame.hpp"
+
 namespace sediment::movers {
 namespace {
+
+/// Of the grid's morphology.
+cv::Mat ball() {
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3});
+}
 
 /// Seeds and what may join them.
 struct Marks {
@@ -51,16 +58,33 @@ void grow(cv::Mat& regions, const cv::Mat& open, const cv::Mat& depth, double de
   }
 }
 
+/// Adds to `regions` what goes on at their depth, or at that of a moved thing masked already, is not seen
+/// both before and after, and has something behind it that is. Floor that comes into sight, too, is not seen
+/// before; what hid it then was nearer.
+void add_rest(cv::Mat& regions, const Verdicts& verdicts, const View& view, double depth_scale,
+              int min_views) {
+  cv::Mat masked;
+  cv::resize(view.dynamic, masked, regions.size(), 0, 0, cv::INTER_NEAREST);
+  const cv::Mat known = (regions | (masked == kNonPriorDynamic)) & (masked != kPriorDynamic);
+  const cv::Mat open =
+      (verdicts.lasting == 0) & (verdicts.through + verdicts.beyond >= min_views) & (masked == kStatic);
+  cv::Mat rest = known.clone();
+  grow(rest, open, view.depth, depth_scale);
+  rest &= known == 0;
+  cv::morphologyEx(rest, rest, cv::MORPH_OPEN, ball());
+  regions |= rest;
+}
+
 }  // namespace
 
-cv::Mat regions_of(const Verdicts& verdicts, const cv::Mat& depth, double depth_scale,
+cv::Mat regions_of(const Verdicts& verdicts, const View& view, double depth_scale,
                    const RegionParameters& parameters) {
   const Marks marks = marks_of(verdicts, parameters);
   cv::Mat regions;
-  const cv::Mat ball = cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3});
-  cv::morphologyEx(marks.seeds, regions, cv::MORPH_OPEN, ball);
-  grow(regions, marks.open, depth, depth_scale);
-  cv::morphologyEx(regions, regions, cv::MORPH_CLOSE, ball, {-1, -1}, 2);
+  cv::morphologyEx(marks.seeds, regions, cv::MORPH_OPEN, ball());
+  grow(regions, marks.open, view.depth, depth_scale);
+  add_rest(regions, verdicts, view, depth_scale, parameters.min_views);
+  cv::morphologyEx(regions, regions, cv::MORPH_CLOSE, ball(), {-1, -1}, 2);
   cv::Mat labels, statistics, centres;
   const int count = cv::connectedComponentsWithStats(regions, labels, statistics, centres, 8);
   const double least = parameters.min_area * regions.rows * regions.cols;

@@ -13,8 +13,10 @@ struct RegionParameters {
 
 /// The regions (CV_8UC1 on the grid, 0 or 255) that others see through: seeds, cleaned of what is narrower
 /// than six pixels of the image, grown over pixels of their surface that are seen through less often, as a
-/// thing that moves slowly hides where it was. `depth` is that of the view.
-cv::Mat regions_of(const Verdicts& verdicts, const cv::Mat& depth, double depth_scale,
+/// thing that moves slowly hides where it was. They, and what `view` has masked as moved, are completed by
+/// what goes on at their depth, is not seen both before and after, and has something behind it that is seen:
+/// parts of a thing that has come to stay.
+cv::Mat regions_of(const Verdicts& verdicts, const View& view, double depth_scale,
                    const RegionParameters& parameters);
 
 /// A mask of the image (255) from regions of the grid: the pixels of its cells, and those within `reach_px`

@@ -14,7 +14,8 @@ const Camera kCamera{64, 48, 50, 50, 31.5, 23.5, {}, 5000};
 const cv::Point kCell(16, 12);
 
 View wall_at(double depth_m) {
-  return {{},
+  return {0,
+          {},
           {},
           cv::Mat(48, 64, CV_16UC1, cv::Scalar(depth_m * kCamera.depth_scale)),
           cv::Mat(48, 64, CV_8UC1, cv::Scalar(kStatic))};
@@ -41,6 +42,37 @@ TEST_CASE("a frame sees through what is not there in it, sees what is, and says 
   CHECK(votes_of(wall_at(1.5), wall_at(3)) == kThrough);
   CHECK(votes_of(wall_at(3), wall_at(3)) == kHit);
   CHECK(votes_of(wall_at(3), wall_at(1.5)) == kNothing);
+}
+
+TEST_CASE("what is seen both before and after is lasting, what is seen on one side only is not") {
+  View view = wall_at(3), before = wall_at(3), after = wall_at(3);
+  view.stamp_s = 1, after.stamp_s = 2;
+  const auto lasting = [&](const View& first, const View& second) {
+    const Reference references[] = {reference_of(first, kCamera, {}), reference_of(second, kCamera, {})};
+    const Reference* const both[] = {&references[0], &references[1]};
+    return verdicts_of(view, both, kCamera, rays_of(kCamera), {}).lasting.at<std::uint8_t>(kCell) == 255;
+  };
+  CHECK(lasting(before, after));
+  CHECK_FALSE(lasting(after, after));
+  CHECK_FALSE(lasting(before, before));
+  View hidden = wall_at(1.5);
+  CHECK_FALSE(lasting(hidden, after));
+}
+
+TEST_CASE("a frame sees beyond a pixel if what it shows there lies behind, though not all around does") {
+  View view = wall_at(1.5), other = wall_at(3);
+  other.depth.at<std::uint16_t>(25, 35) = 0;
+  const ContradictionParameters wide{.slack_rad = 0.06};
+  const auto beyond = [&] {
+    const Reference reference = reference_of(other, kCamera, wide);
+    const Reference* const one[] = {&reference};
+    return verdicts_of(view, one, kCamera, rays_of(kCamera), wide).beyond.at<std::uint8_t>(kCell);
+  };
+  CHECK(beyond() == 1);
+  other = wall_at(3);
+  CHECK(beyond() == 0);  // that is through
+  other = wall_at(1);
+  CHECK(beyond() == 0);
 }
 
 TEST_CASE("depths may differ by the slack and four deviations of both") {
