@@ -6,11 +6,42 @@ target_include_directories(sediment_rules INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_options(sediment_rules INTERFACE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off
                        $<$<BOOL:${SEDIMENT_WARNINGS_AS_ERRORS}>:-Werror>)
 
+if(CMAKE_CXX_FLAGS_DEBUG MATCHES "sanitize=address" AND CMAKE_BUILD_TYPE STREQUAL "Debug")
+  add_library(sediment_leak_suppressions STATIC ${CMAKE_CURRENT_LIST_DIR}/leak_suppressions.c)
+  target_link_libraries(sediment_rules INTERFACE sediment_leak_suppressions)
+  target_link_options(sediment_rules INTERFACE LINKER:-u,__lsan_default_suppressions)
+endif()
+
 # sediment_compile_together(TARGET): with SEDIMENT_TOGETHER its headers, not its own code, being what takes the time, eight
 # files are compiled as one. Not for what computes: the compiler inlines less in large files (synthesize became a quarter
 # slower).
 function(sediment_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${SEDIMENT_TOGETHER} UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
+
+# sediment_precompile(TARGET [LIGHTLY]): with SEDIMENT_TOGETHER the headers that most files include are read once for all
+# targets; those of code that is optimised lightly need a copy of their own.
+set(sediment_common_headers
+    <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map> <memory> <numeric> <optional>
+    <random> <set> <span> <sstream> <stdexcept> <string> <unordered_map> <vector> <nlohmann/json.hpp> <opencv2/core.hpp>
+    <opencv2/imgproc.hpp>)
+function(sediment_precompile target)
+  if(NOT SEDIMENT_TOGETHER)
+    return()
+  endif()
+  set(headers sediment_headers${ARGN})
+  if(NOT TARGET ${headers})
+    file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/${headers}.cpp CONTENT "// Stands for precompiled headers.\n")
+    add_library(${headers} STATIC ${CMAKE_BINARY_DIR}/${headers}.cpp)
+    target_link_libraries(${headers} PRIVATE sediment_rules sediment_cv_imgproc nlohmann_json::nlohmann_json)
+    target_precompile_headers(${headers} PRIVATE ${sediment_common_headers})
+    if(ARGN)
+      target_link_libraries(${headers} PRIVATE CLI11::CLI11)
+      target_precompile_headers(${headers} PRIVATE <catch2/catch.hpp> <CLI/CLI.hpp>)
+      sediment_optimise_lightly(${headers})
+    endif()
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${headers})
 endfunction()
 
 # sediment_optimise_lightly(TARGET): for code whose compilation takes longer than its work: tests, and the flags of tools,
@@ -24,6 +55,7 @@ function(sediment_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   add_library(${name} STATIC ${arg_SOURCES})
   target_link_libraries(${name} PUBLIC sediment_rules ${arg_LINKS} PRIVATE ${arg_PRIVATE_LINKS})
+  sediment_precompile(${name})
 endfunction()
 
 # sediment_stage(NAME SOURCES file... LINKS target...): the library `stage_NAME` of the pure algorithm, and the
@@ -34,18 +66,23 @@ function(sediment_stage name)
                    PRIVATE_LINKS ${arg_PRIVATE_LINKS})
   add_executable(${name} main.cpp)
   target_link_libraries(${name} PRIVATE stage_${name} sediment_artifacts sediment_contract)
+  sediment_precompile(${name})
 endfunction()
 
-# sediment_tool(NAME SOURCES file... LINKS target...): the library `tool_NAME` and the executable NAME.
+# sediment_tool(NAME [COMPUTES] SOURCES file... LINKS target...): the library `tool_NAME` and the executable NAME.
 function(sediment_tool name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(arg "COMPUTES" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   if(arg_SOURCES)
     sediment_library(tool_${name} SOURCES ${arg_SOURCES} LINKS sediment_scene sediment_artifacts ${arg_LINKS}
                      PRIVATE_LINKS ${arg_PRIVATE_LINKS})
+    if(NOT arg_COMPUTES)
+      sediment_compile_together(tool_${name})
+    endif()
   endif()
   add_executable(${name} main.cpp)
   target_link_libraries(${name} PRIVATE sediment_rules sediment_artifacts CLI11::CLI11)
   sediment_optimise_lightly(${name})  # main.cpp alone
+  sediment_precompile(${name} _lightly)
   if(arg_SOURCES)
     target_link_libraries(${name} PRIVATE tool_${name})
   endif()
@@ -59,6 +96,7 @@ function(sediment_test name)
   target_link_libraries(test_${name} PRIVATE sediment_rules test_support ${arg_LINKS})
   sediment_compile_together(test_${name})
   sediment_optimise_lightly(test_${name})
+  sediment_precompile(test_${name} _lightly)
   catch_discover_tests(test_${name} TEST_PREFIX "${name}: " DISCOVERY_MODE PRE_TEST
                        PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: needs" TIMEOUT 600)
 endfunction()

@@ -5,15 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/evaluate-map/share.hpp"
 #include "tools/evaluate-map/surface_score.hpp"
 
 namespace sediment::tools {
 namespace {
-
-std::optional<double> share(std::size_t part, std::size_t whole) {
-  if (whole == 0) return std::nullopt;
-  return static_cast<double>(part) / static_cast<double>(whole);
-}
 
 std::optional<double> harmonic_mean(const std::optional<double>& a, const std::optional<double>& b) {
   if (!a || !b) return std::nullopt;

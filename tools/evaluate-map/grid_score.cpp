@@ -6,13 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/evaluate-map/share.hpp"
+
 namespace sediment::tools {
 namespace {
-
-std::optional<double> share(std::size_t part, std::size_t whole) {
-  if (whole == 0) return std::nullopt;
-  return static_cast<double>(part) / static_cast<double>(whole);
-}
 
 /// What is true of the cells of a map. `rested`: something stood there for a while only; a map may show it or
 /// not.

@@ -2,6 +2,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "tools/evaluate-map/share.hpp"
+
 #include "pipeline/artifacts/label_file.hpp"
 #include "tools/evaluate-map/map_evaluation.hpp"
 
@@ -26,11 +28,6 @@ std::string line(const char* name, const std::optional<double>& value, const std
 
 OrderedJson json_of(const std::optional<double>& value) {
   return value ? OrderedJson(*value) : OrderedJson();
-}
-
-std::optional<double> share(std::size_t part, std::size_t whole) {
-  if (whole == 0) return std::nullopt;
-  return static_cast<double>(part) / static_cast<double>(whole);
 }
 
 std::string name_of(std::uint32_t label) {

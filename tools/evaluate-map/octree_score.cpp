@@ -6,17 +6,14 @@
 #include <algorithm>
 #include <map>
 
+#include "tools/evaluate-map/share.hpp"
+
 #include "pipeline/artifacts/octree.hpp"
 
 namespace sediment::tools {
 namespace {
 
 constexpr double kProbe_m = 0.1;  ///< distance of the places where free space is compared
-
-std::optional<double> share(std::size_t part, std::size_t whole) {
-  if (whole == 0) return std::nullopt;
-  return static_cast<double>(part) / static_cast<double>(whole);
-}
 
 Vec3 position_of(const LabelledPoint& point) {
   return {point.x, point.y, point.z};

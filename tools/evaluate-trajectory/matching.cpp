@@ -8,12 +8,6 @@
 namespace sediment::tools {
 namespace {
 
-std::vector<double> stamps_of(const Trajectory& trajectory) {
-  std::vector<double> stamps_s;
-  for (const StampedPose& pose : trajectory) stamps_s.push_back(pose.stamp_s);
-  return stamps_s;
-}
-
 /// The first of the nearest, as numpy.argmin finds it.
 std::size_t first_nearest(const std::vector<double>& ascending, double value) {
   std::size_t at = static_cast<std::size_t>(std::lower_bound(ascending.begin(), ascending.end(), value) -
@@ -24,6 +18,12 @@ std::size_t first_nearest(const std::vector<double>& ascending, double value) {
 }
 
 }  // namespace
+
+std::vector<double> stamps_of(const Trajectory& trajectory) {
+  std::vector<double> stamps_s;
+  for (const StampedPose& pose : trajectory) stamps_s.push_back(pose.stamp_s);
+  return stamps_s;
+}
 
 std::vector<Match> match_as_tum(const Trajectory& truth, const Trajectory& estimate, double tolerance_s) {
   std::vector<Match> matches;

@@ -21,6 +21,9 @@ std::vector<Match> match_as_tum(const Trajectory& truth, const Trajectory& estim
 std::vector<Match> match_as_evo(const Trajectory& truth, const Trajectory& estimate,
                                 double tolerance_s = 0.01);
 
+/// Seconds, in the order of the poses.
+std::vector<double> stamps_of(const Trajectory& trajectory);
+
 /// Index of the value nearest to `value` in an ascending list that is not empty: the search of
 /// evaluate_rpe.py, with its choice between two that are equally near.
 std::size_t closest_index(const std::vector<double>& ascending, double value);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/evaluate-trajectory/matching.hpp"
 #include "tools/evaluate-trajectory/python_random.hpp"
 
 namespace sediment::tools {
@@ -11,12 +12,6 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 using IndexPair = std::pair<std::size_t, std::size_t>;
-
-std::vector<double> stamps_of(const Trajectory& trajectory) {
-  std::vector<double> stamps_s;
-  for (const StampedPose& pose : trajectory) stamps_s.push_back(pose.stamp_s);
-  return stamps_s;
-}
 
 double median_interval(const std::vector<double>& stamps_s) {
   std::vector<double> intervals;

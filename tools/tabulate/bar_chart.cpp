@@ -11,14 +11,14 @@ namespace {
 constexpr double kLeft = 58, kTop = 64, kHeight = 280, kBar = 24, kBetween = 34, kBottom = 92;
 constexpr const char* kColors[] = {"#64707a", "#9fb0b8", "#0d6e60", "#c4701c", "#7d5ba6", "#b3261e"};
 
-std::string escaped(const std::string& text) {
+std::string escaped_xml(const std::string& text) {
   std::string all;
   for (const char c : text) all += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
   return all;
 }
 
 std::string label(double x, double y, const std::string& content, const char* more) {
-  return formatted("<text x=\"%.1f\" y=\"%.1f\" %s>", x, y, more) + escaped(content) + "</text>\n";
+  return formatted("<text x=\"%.1f\" y=\"%.1f\" %s>", x, y, more) + escaped_xml(content) + "</text>\n";
 }
 
 /// A step of 1, 2 or 5 times a power of ten, about five of them.

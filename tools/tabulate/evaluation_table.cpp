@@ -15,7 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kSequenceAxis = "sequence";
-constexpr std::size_t kKeyDigits = 11;  ///< "x3:" and eight digits, as the runner shows them
 
 /// A figure of an instance: its heading, how it is shown, its value.
 struct Measure {
@@ -149,7 +148,7 @@ std::string receipts_of(const InstanceFacts& instance) {
   std::string text;
   for (const char* kind : {"trajectory", "cloud", "octree"})
     if (const StageFacts* stage = instance.last_with(kind))
-      text += (text.empty() ? "" : " ") + stage->key.substr(0, kKeyDigits);
+      text += (text.empty() ? "" : " ") + stage->short_key();
   return text;
 }
 

@@ -5,8 +5,6 @@
 namespace sediment::tabulate {
 namespace {
 
-constexpr std::size_t kKeyDigits = 11;  ///< "x3:" and eight digits, as the runner shows them
-
 std::string density_of(const nlohmann::json& fuse) {
   const std::string frames = fuse.at("frames");
   return frames == "every_nth" ? "every " + fuse.at("every_nth").dump() + "th frame"
@@ -50,7 +48,7 @@ MapSizes sizes_of(const InstanceFacts& instance) {
   sizes.frames_fused = fuse.metrics.at("frames_fused");
   sizes.settings = settings_of(fuse, sor, voxel);
   for (const StageFacts* stage : {&fuse, &sor, &voxel, &octree})
-    sizes.receipts += (sizes.receipts.empty() ? "" : " ") + stage->key.substr(0, kKeyDigits);
+    sizes.receipts += (sizes.receipts.empty() ? "" : " ") + stage->short_key();
   return sizes;
 }
 

@@ -19,6 +19,9 @@ struct StageFacts {
   nlohmann::json params, metrics;
   double wall_s = 0;
   std::uint64_t peak_bytes = 0;
+
+  /// As the runner shows it: "x3:" and eight digits.
+  std::string short_key() const { return key.substr(0, 11); }
 };
 
 /// One instance of a sweep, or a run by itself.

@@ -13,7 +13,7 @@ bool is_numeric(const Table& table, std::size_t column) {
                      [&](const auto& row) { return row[column].number.has_value(); });
 }
 
-std::string escaped(const std::string& text) {
+std::string escaped_latex(const std::string& text) {
   std::string all;
   for (const char c : text) {
     if (std::string("&%$#_{}").find(c) != std::string::npos) all += '\\';
@@ -67,10 +67,10 @@ std::string to_latex(const Table& table) {
   for (std::size_t i = 0; i < table.headings.size(); ++i) columns += is_numeric(table, i) ? 'r' : 'l';
   text = "\\begin{tabular}{" + columns + "}\n\\toprule\n";
   for (std::size_t i = 0; i < table.headings.size(); ++i)
-    text += (i ? " & " : "") + escaped(table.headings[i]);
+    text += (i ? " & " : "") + escaped_latex(table.headings[i]);
   text += " \\\\\n\\midrule\n";
   for (const auto& row : table.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) text += (i ? " & " : "") + escaped(row[i].text);
+    for (std::size_t i = 0; i < row.size(); ++i) text += (i ? " & " : "") + escaped_latex(row[i].text);
     text += " \\\\\n";
   }
   return text + "\\bottomrule\n\\end{tabular}\n";
