@@ -183,7 +183,8 @@ Sums sums_at(const DenseImage& reference, const DenseImage& current, const Dense
     if (!(u >= 1 && v >= 1 && u < static_cast<float>(level.width - 2) &&
           v < static_cast<float>(level.height - 2)))
       continue;
-    const int nearest = static_cast<int>(v + 0.5f) * level.width + static_cast<int>(u + 0.5f);
+    const float up_v = v + 0.5f, up_u = u + 0.5f;  // cut off, they are the nearest pixel: both are above 1
+    const int nearest = static_cast<int>(up_v) * level.width + static_cast<int>(up_u);
     const float depth_m = current.depth_m[nearest];
     if (depth_m <= 0 || std::abs(depth_m - p[2]) > 0.05f + 0.1f * p[2]) continue;  // none, or another surface
     if (point.nz != 0)
