@@ -18,6 +18,12 @@ Json to_json(const Interaction& pair) {
           {"interacting", pair.interacting}};
 }
 
+Interaction from_json(const Json& pair) {
+  return {pair.at("dynamic_id"),   pair.at("static_id"),   pair.at("dynamic_class"),
+          pair.at("static_class"), pair.at("pixel_pairs"), pair.at("mean_depth_difference_m"),
+          pair.at("interacting")};
+}
+
 void check_values(const cv::Mat& mask, const std::string& name) {
   for (int y = 0; y < mask.rows; ++y) {
     const auto* row = mask.ptr<std::uint8_t>(y);
@@ -55,7 +61,8 @@ void DynamicMasksWriter::finish() {
   write_frame_json(folder_ / "interactions.json", kInteractionsFormat, frames);
 }
 
-DynamicMasksReader::DynamicMasksReader(std::filesystem::path folder) : folder_(std::move(folder)) {
+DynamicMasksReader::DynamicMasksReader(std::filesystem::path folder)
+    : folder_(std::move(folder)), interactions_file_(folder_ / "interactions.json") {
   if (std::filesystem::is_directory(folder_ / "masks")) folder_ /= "masks";
   if (!std::filesystem::is_directory(folder_))
     throw std::runtime_error(folder_.string() + ": there is no such folder of dynamic masks");
@@ -72,6 +79,15 @@ cv::Mat DynamicMasksReader::read(const std::string& stamp) const {
   cv::Mat mask = read_gray8(file);
   check_values(mask, file.string());
   return mask;
+}
+
+std::map<std::string, std::vector<Interaction>> DynamicMasksReader::interactions() const {
+  std::map<std::string, std::vector<Interaction>> frames;
+  if (!std::filesystem::exists(interactions_file_)) return frames;
+  read_frame_json(interactions_file_, kInteractionsFormat, [&](const std::string& stamp, const Json& frame) {
+    for (const Json& pair : frame.at("interactions")) frames[stamp].push_back(from_json(pair));
+  });
+  return frames;
 }
 
 }  // namespace sediment

@@ -40,9 +40,11 @@ class DynamicMasksReader {
   bool has(const std::string& stamp) const;
   /// CV_8UC1 with DynamicValue. Safe to call from several threads.
   cv::Mat read(const std::string& stamp) const;
+  /// By stamp; empty if there is no interactions.json.
+  std::map<std::string, std::vector<Interaction>> interactions() const;
 
  private:
-  std::filesystem::path folder_;
+  std::filesystem::path folder_, interactions_file_;
 };
 
 }  // namespace sediment

@@ -33,6 +33,7 @@ class Search {
          const Parameters& parameters, DynamicMasksWriter& writer, const std::function<void()>& on_frame)
       : sequence_(sequence),
         dynamic_(dynamic),
+        interactions_(dynamic.interactions()),
         parameters_(parameters),
         writer_(writer),
         on_frame_(on_frame),
@@ -160,6 +161,12 @@ class Search {
     return votes >= parameters_.min_witnesses;
   }
 
+  /// What was decided before, for those who look at these masks.
+  std::vector<Interaction> interactions_of(const std::string& stamp) const {
+    const auto found = interactions_.find(stamp);
+    return found == interactions_.end() ? std::vector<Interaction>{} : found->second;
+  }
+
   void finish_until(std::size_t end) {
     const std::size_t begin = finished_;
     std::vector<std::uint64_t> added(std::max(end, begin) - begin);
@@ -170,7 +177,7 @@ class Search {
       full &= mask == kStatic;
       mask.setTo(kNonPriorDynamic, full);
       added[i - begin] = static_cast<std::uint64_t>(cv::countNonZero(full));
-      writer_.write(stamps_[i].stamp, mask, {});
+      writer_.write(stamps_[i].stamp, mask, interactions_of(stamps_[i].stamp));
       on_frame_();
     });
     for (const std::uint64_t pixels : added) {
@@ -186,6 +193,7 @@ class Search {
 
   const Sequence& sequence_;
   const DynamicMasksReader& dynamic_;
+  const std::map<std::string, std::vector<Interaction>> interactions_;
   const Parameters& parameters_;
   DynamicMasksWriter& writer_;
   const std::function<void()>& on_frame_;

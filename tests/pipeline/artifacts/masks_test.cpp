@@ -124,11 +124,18 @@ TEST_CASE("dynamic masks survive writing and reading, with or without their json
   writer.write("7.5", mask, {{1, 2, "person", "chair", 12, 0.03, true}});
   writer.finish();
   CHECK(read_bytes(folder / "interactions.json").find("\"pixel_pairs\":12") != std::string::npos);
+  const auto interactions = DynamicMasksReader(folder.path()).interactions();
+  REQUIRE(interactions.size() == 1);
+  const Interaction& pair = interactions.at("7.5").at(0);
+  CHECK((pair.dynamic_id == 1 && pair.static_id == 2 && pair.pixel_pairs == 12 && pair.interacting));
+  CHECK((pair.dynamic_class == "person" && pair.static_class == "chair"));
+  CHECK(pair.mean_depth_difference_m == 0.03);
   std::filesystem::remove(folder / "interactions.json");
   for (const auto& place : {folder.path(), folder / "masks"}) {
     const DynamicMasksReader reader(place);
     CHECK(reader.has("7.5"));
     CHECK_FALSE(reader.has("8"));
+    CHECK(reader.interactions().empty());
     CHECK(cv::norm(reader.read("7.5"), mask, cv::NORM_INF) == 0);
     CHECK_THROWS_WITH(reader.read("8"), Contains("8.png") && Contains("frame 8"));
   }

@@ -118,3 +118,19 @@ TEST_CASE("a mask of another size is an error that names the frame") {
   CHECK(failed.code == 1);
   CHECK_THAT(failed.output, Catch::Contains("dynamic mask of frame 1") && Catch::Contains("32 x 24 pixels"));
 }
+
+TEST_CASE("what was decided of interactions is handed on") {
+  const Scene scene("static", 4);
+  DynamicMasksWriter decided(scene.folder / "decided");
+  for (const Frame& frame : scene.truth.frames)
+    decided.write(frame.stamp, cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(kStatic)),
+                  {{3, 7, "person", "cup", 40, 0.02, true}});
+  decided.finish();
+  REQUIRE(scene.run("out", "decided").code == 0);
+  const auto handed_on = DynamicMasksReader(scene.folder / "out").interactions();
+  REQUIRE(handed_on.size() == scene.truth.frames.size());
+  for (const auto& [stamp, pairs] : handed_on) {
+    REQUIRE(pairs.size() == 1);
+    CHECK((pairs[0].dynamic_id == 3 && pairs[0].static_class == "cup" && pairs[0].interacting));
+  }
+}
