@@ -105,7 +105,7 @@ struct Projection {
     for (int i = 0; i < 5; ++i) *lens[i] = static_cast<float>(full.distortion[i]);
   }
   void rotate(const float* p, float* q) const {
-    for (int i = 0; i < 3; ++i) q[i] = r[3 * i] * p[0] + r[3 * i + 1] * p[1] + r[3 * i + 2] * p[2];
+    for (std::ptrdiff_t i = 0; i < 3; ++i) q[i] = r[3 * i] * p[0] + r[3 * i + 1] * p[1] + r[3 * i + 2] * p[2];
   }
   void pixel(const float* p, float& u, float& v) const {
     const float x = p[0] / p[2], y = p[1] / p[2], rr = x * x + y * y;
@@ -148,7 +148,8 @@ Brightness brightness_at(const std::vector<float>& image, int width, float u, fl
   const float left = p[-1] + b * (p[width - 1] - p[-1]), right = p[2] + b * (p[width + 2] - p[2]);
   const float middle_left = p[0] + b * (p[width] - p[0]), middle_right = p[1] + b * (p[width + 1] - p[1]);
   const float above = p[-width] + a * (p[1 - width] - p[-width]);
-  const float below = p[2 * width] + a * (p[2 * width + 1] - p[2 * width]);
+  const float* beneath = p + 2 * static_cast<std::ptrdiff_t>(width);
+  const float below = beneath[0] + a * (beneath[1] - beneath[0]);
   return {top + b * (bottom - top), 0.5f * ((1 - a) * (middle_right - left) + a * (right - middle_left)),
           0.5f * ((1 - b) * (bottom - above) + b * (below - top))};
 }
