@@ -19,8 +19,8 @@ function(sediment_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${SEDIMENT_TOGETHER} UNITY_BUILD_BATCH_SIZE 8)
 endfunction()
 
-# sediment_precompile(TARGET [LIGHTLY]): with SEDIMENT_TOGETHER the headers that most files include are read once for all
-# targets; those of code that is optimised lightly need a copy of their own.
+# sediment_precompile(TARGET [_lightly]): with SEDIMENT_TOGETHER the headers that most files include are read once for all
+# targets. What is optimised lightly needs a copy of its own, with the library of tests and that of flags.
 set(sediment_common_headers
     <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map> <memory> <numeric> <optional>
     <random> <set> <span> <sstream> <stdexcept> <string> <unordered_map> <vector> <nlohmann/json.hpp> <opencv2/core.hpp>

@@ -28,27 +28,25 @@ for ((chain = 0; chain < chains; ++chain)); do
 done
 printf 'pipeline: pipeline.yaml\nover:\n  - sequence: [%s]\n' "$(IFS=,; echo "${names[*]}")" >sweep.yaml
 printf 'partition: main\nin_flight: 32\ndefaults: {memory: 10 MB, time: 10m}\n' >profile.yaml
-start_slurm "$tmp/slurm" || { echo "slurm.sh: Slurm does not start; see $tmp/slurm" >&2; trap - EXIT; exit 1; }
+start_slurm "$tmp/slurm" || { echo "slurm.sh: Slurm does not start; its log:" >&2; tail -n 5 slurm/*.log >&2; exit 1; }
 
-seconds() {
-  local from=$EPOCHREALTIME
-  "$@" >>log 2>&1 || { tail -n 20 log >&2; return 1; }
-  awk -v a="$from" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.2f", b - a }'
-}
+since() { awk -v a="$1" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.2f", b - a }'; }
+logged() { "$@" >>log 2>&1 || { tail -n 20 log >&2; return 1; }; }
 sweep() { "$bin/sediment" sweep sweep.yaml --stages bin --out "$@"; }
 on_slurm() { sweep "$1" --backend slurm --profile profile.yaml --pack "${@:2}"; }
-queue_is_empty() { [ -z "$(squeue --noheader)" ]; }
-until_done() { until queue_is_empty; do sleep 0.1; done; }
+until_done() { until [ -z "$(squeue --noheader)" ]; do sleep 0.1; done; }
 
 echo "| $((chains * 8)) tasks | submitted after, s | all done after, s |"
 echo "|---|---|---|"
-all=$(seconds sweep local -j2)
-echo "| on this machine, two at a time | | $all |"
+from=$EPOCHREALTIME
+logged sweep local -j2
+echo "| on this machine, two at a time | | $(since "$from") |"
 for pack in sequence stage chunk:10; do
   from=$EPOCHREALTIME
-  submitted=$(seconds on_slurm "${pack/:/_}" "$pack")
+  logged on_slurm "${pack/:/_}" "$pack"
+  submitted=$(since "$from")
   until_done
-  all=$(awk -v a="$from" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.2f", b - a }')
+  all=$(since "$from")
   kept=$(sweep "${pack/:/_}" | grep -o '[0-9]* kept in')
   [ "$kept" = "$((chains * 8)) kept in" ] || { echo "slurm.sh: $pack: $kept" >&2; exit 1; }
   echo "| \`--pack $pack\` | $submitted | $all |"

@@ -2,10 +2,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "tools/evaluate-map/share.hpp"
-
 #include "pipeline/artifacts/label_file.hpp"
 #include "tools/evaluate-map/map_evaluation.hpp"
+#include "tools/evaluate-map/share.hpp"
 
 namespace sediment::tools {
 namespace {

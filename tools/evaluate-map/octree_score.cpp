@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <map>
 
-#include "tools/evaluate-map/share.hpp"
-
 #include "pipeline/artifacts/octree.hpp"
+#include "tools/evaluate-map/share.hpp"
 
 namespace sediment::tools {
 namespace {
