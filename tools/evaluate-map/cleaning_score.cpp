@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/evaluate-map/share.hpp"
 #include "tools/evaluate-map/surface_score.hpp"
+#include "tools/truth/share.hpp"
 
 namespace sediment::tools {
 namespace {

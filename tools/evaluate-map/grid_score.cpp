@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/evaluate-map/share.hpp"
+#include "tools/truth/share.hpp"
 
 namespace sediment::tools {
 namespace {

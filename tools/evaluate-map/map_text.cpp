@@ -4,7 +4,7 @@
 
 #include "pipeline/artifacts/label_file.hpp"
 #include "tools/evaluate-map/map_evaluation.hpp"
-#include "tools/evaluate-map/share.hpp"
+#include "tools/truth/share.hpp"
 
 namespace sediment::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "pipeline/artifacts/octree.hpp"
-#include "tools/evaluate-map/share.hpp"
+#include "tools/truth/share.hpp"
 
 namespace sediment::tools {
 namespace {

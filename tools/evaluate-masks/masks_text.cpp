@@ -56,7 +56,7 @@ std::optional<double> recall_of(const DynamicEvaluation& evaluation, std::uint64
     all += frame.*pixels;
     found += frame.*hit;
   }
-  return Overlap::share(found, all);
+  return share(found, all);
 }
 
 std::string misses(const DynamicEvaluation& e) {
@@ -98,15 +98,15 @@ std::string to_text(const DynamicEvaluation& e) {
   row("  prior dynamic", recall_of(e, &FrameMasks::prior, &FrameMasks::prior_hit), std::nullopt);
   row("  non-prior dynamic", recall_of(e, &FrameMasks::non_prior, &FrameMasks::non_prior_hit), std::nullopt);
   row("boundary F", std::nullopt, mean_boundary_f(e));
-  row("static pixels lost", Overlap::share(total.extra, total.extra + total.none), std::nullopt);
+  row("static pixels lost", share(total.extra, total.extra + total.none), std::nullopt);
   text += "\n" + misses(e);
   if (!e.by_instance) return text;
   text += "\nclass                  dynamic px    recall   static px   lost\n";
   for (const auto& [name, pixels] : e.classes()) {
     text += formatted("%-20s %12llu ", name.c_str(), static_cast<unsigned long long>(pixels.dynamic)) +
-            number(Overlap::share(pixels.dynamic_masked, pixels.dynamic)) +
+            number(share(pixels.dynamic_masked, pixels.dynamic)) +
             formatted(" %11llu", static_cast<unsigned long long>(pixels.still)) +
-            number(Overlap::share(pixels.still_masked, pixels.still)) + "\n";
+            number(share(pixels.still_masked, pixels.still)) + "\n";
   }
   return text;
 }
@@ -118,7 +118,7 @@ std::string to_text(const InstanceEvaluation& e) {
     if (of.truth == 0 && of.found == 0) continue;
     text +=
         formatted("%-20s %7zu %7zu %7zu ", name.c_str(), of.truth, of.found, of.matched) +
-        number(Overlap::share(of.matched, of.truth)) + number(Overlap::share(of.matched, of.found)) +
+        number(share(of.matched, of.truth)) + number(share(of.matched, of.found)) +
         number(of.matched == 0 ? std::nullopt : std::optional(of.iou_sum / static_cast<double>(of.matched))) +
         formatted(" %8zu\n", of.switches);
   }
@@ -138,16 +138,16 @@ nlohmann::ordered_json to_json(const DynamicEvaluation& e) {
   json["recall_prior"] = json_of(recall_of(e, &FrameMasks::prior, &FrameMasks::prior_hit));
   json["recall_non_prior"] = json_of(recall_of(e, &FrameMasks::non_prior, &FrameMasks::non_prior_hit));
   json["boundary_f"] = json_of(mean_boundary_f(e));
-  json["static_lost"] = json_of(Overlap::share(total.extra, total.extra + total.none));
+  json["static_lost"] = json_of(share(total.extra, total.extra + total.none));
   json["frames_with_mover"] = e.frames_with_mover();
   json["missed_frames"] = e.missed_frames();
   json["by_instance"] = e.by_instance;
   json["classes"] = OrderedJson::object();
   for (const auto& [name, pixels] : e.classes())
     json["classes"][name] = {{"dynamic_pixels", pixels.dynamic},
-                             {"recall", json_of(Overlap::share(pixels.dynamic_masked, pixels.dynamic))},
+                             {"recall", json_of(share(pixels.dynamic_masked, pixels.dynamic))},
                              {"static_pixels", pixels.still},
-                             {"static_lost", json_of(Overlap::share(pixels.still_masked, pixels.still))}};
+                             {"static_lost", json_of(share(pixels.still_masked, pixels.still))}};
   json["over_time"] = OrderedJson::array();
   for (const FrameMasks& frame : e.frames) {
     OrderedJson missed = OrderedJson::array();
@@ -173,8 +173,8 @@ nlohmann::ordered_json to_json(const InstanceEvaluation& e) {
         {"truth", of.truth},
         {"found", of.found},
         {"matched", of.matched},
-        {"recall", json_of(Overlap::share(of.matched, of.truth))},
-        {"precision", json_of(Overlap::share(of.matched, of.found))},
+        {"recall", json_of(share(of.matched, of.truth))},
+        {"precision", json_of(share(of.matched, of.found))},
         {"mean_iou",
          of.matched == 0 ? OrderedJson() : OrderedJson(of.iou_sum / static_cast<double>(of.matched))},
         {"identity_switches", of.switches}};
@@ -188,16 +188,14 @@ cv::Mat plot(const DynamicEvaluation& e) {
       line("IoU", {150, 150, 150}, e, [](const FrameMasks& f) { return f.overlap.iou(); }),
       line("precision", {25, 90, 200}, e, [](const FrameMasks& f) { return f.overlap.precision(); }),
       line("recall", {215, 60, 45}, e, [](const FrameMasks& f) { return f.overlap.recall(); })};
-  Panel share{"what moves", "time [s]", "share of the image", {}};
-  share.from_zero = true;
-  share.series = {line("truth", {60, 60, 60}, e,
-                       [](const FrameMasks& f) {
-                         return Overlap::share(f.overlap.hit + f.overlap.missed, f.overlap.pixels());
-                       }),
-                  line("masks", {25, 90, 200}, e, [](const FrameMasks& f) {
-                    return Overlap::share(f.overlap.hit + f.overlap.extra, f.overlap.pixels());
-                  })};
-  return draw({figures, share});
+  Panel moving{"what moves", "time [s]", "share of the image", {}};
+  moving.from_zero = true;
+  moving.series = {
+      line("truth", {60, 60, 60}, e,
+           [](const FrameMasks& f) { return share(f.overlap.hit + f.overlap.missed, f.overlap.pixels()); }),
+      line("masks", {25, 90, 200}, e,
+           [](const FrameMasks& f) { return share(f.overlap.hit + f.overlap.extra, f.overlap.pixels()); })};
+  return draw({figures, moving});
 }
 
 }  // namespace sediment::tools

@@ -4,6 +4,8 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
+#include "tools/truth/share.hpp"
+
 namespace sediment::tools {
 
 /// Pixels of a mask against a true one.
@@ -19,11 +21,6 @@ struct Overlap {
   std::optional<double> recall() const { return share(hit, hit + missed); }
   std::uint64_t pixels() const { return hit + extra + missed + none; }
   Overlap& operator+=(const Overlap& other);
-
-  static std::optional<double> share(std::uint64_t part, std::uint64_t whole) {
-    if (whole == 0) return std::nullopt;
-    return static_cast<double>(part) / static_cast<double>(whole);
-  }
 };
 
 /// Not 0 counts as in the mask. Both CV_8UC1 of one size.
