@@ -48,7 +48,7 @@ add_library(sediment_xxhash INTERFACE)
 target_include_directories(sediment_xxhash SYSTEM INTERFACE ${XXHASH_INCLUDE})
 target_link_libraries(sediment_xxhash INTERFACE ${XXHASH_LIBRARY})
 
-find_path(LIBDEFLATE_INCLUDE libdeflate.h REQUIRED)  # writing PNG files
+find_path(LIBDEFLATE_INCLUDE libdeflate.h REQUIRED)  # reading and writing PNG files
 find_library(LIBDEFLATE_LIBRARY deflate REQUIRED)
 add_library(sediment_libdeflate INTERFACE)
 target_include_directories(sediment_libdeflate SYSTEM INTERFACE ${LIBDEFLATE_INCLUDE})

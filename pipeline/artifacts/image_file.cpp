@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/artifacts/file_bytes.hpp"
+#include "pipeline/artifacts/png_decoder.hpp"
 #include "pipeline/artifacts/png_encoder.hpp"
 
 namespace sediment {
@@ -64,9 +65,10 @@ ImageHeader jpeg_header(std::ifstream& stream, const std::string& name) {
   }
 }
 
-cv::Mat decode(const std::filesystem::path& file, int flags) {
+cv::Mat decode(const std::filesystem::path& file, int flags, int channels) {
   const std::string bytes = read_bytes(file);
-  cv::Mat image;
+  cv::Mat image = decoded_png(bytes);
+  if (!image.empty() && image.channels() == channels) return image;
   try {
     const cv::Mat view(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
     image = cv::imdecode(view, flags);
@@ -83,7 +85,7 @@ cv::Mat read_gray(const std::filesystem::path& file, int bits) {
     throw std::runtime_error(file.string() + ": expected " + std::to_string(bits) +
                              " bits in one channel, found " + std::to_string(header.bits) + " bits in " +
                              std::to_string(header.channels) + " channels");
-  return decode(file, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
+  return decode(file, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION, 1);
 }
 
 }  // namespace
@@ -115,7 +117,7 @@ ImageHeader probe_image(const std::filesystem::path& file) {
 
 cv::Mat read_color(const std::filesystem::path& file) {
   probe_image(file);
-  return decode(file, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  return decode(file, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION, 3);
 }
 
 cv::Mat read_gray16(const std::filesystem::path& file) {

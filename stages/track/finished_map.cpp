@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -19,6 +20,32 @@ double depth_delay_s(const Recording& recording, std::size_t frame_idx) {
              : recording.depth_stamps_s[frame_idx] - recording.stamps_s[frame_idx];
 }
 
+cv::Mat depth_of(const Recording& recording, std::size_t frame_idx) {
+  return recording.depth ? recording.depth(frame_idx) : recording.frame(frame_idx).depth;
+}
+
+// The recording with a memory for depth images, which all passes measure keyframes in: as many as fit.
+// Afterwards and for other frames they are read.
+Recording remembering_depth(const Recording& recording) {
+  constexpr std::ptrdiff_t kMost_bytes = std::ptrdiff_t{256} << 20;
+  struct Memory {
+    std::vector<cv::Mat> depth;  // per frame, each asked for by one thread at a time
+    std::atomic<std::ptrdiff_t> free_bytes = kMost_bytes;
+  };
+  const auto memory = std::make_shared<Memory>();
+  memory->depth.resize(recording.stamps.size());
+  Recording remembering = recording;
+  remembering.depth = [&recording, memory](std::size_t i) {
+    cv::Mat& kept = memory->depth[i];
+    if (!kept.empty()) return kept;
+    const cv::Mat depth = depth_of(recording, i);
+    const auto bytes = static_cast<std::ptrdiff_t>(depth.total() * depth.elemSize());
+    if ((memory->free_bytes -= bytes) >= 0) kept = depth;
+    return depth;
+  };
+  return remembering;
+}
+
 // What a pass has learned about the frames, for the next one.
 struct Hindsight {
   std::vector<std::shared_ptr<const FrameFeatures>> features;
@@ -31,9 +58,9 @@ std::shared_ptr<const FrameFeatures> corrected_features(const Recording& recordi
                                                         const Hindsight& hindsight, std::size_t frame_idx) {
   const Exposure exposure{hindsight.motions[frame_idx], hindsight.timing,
                           depth_delay_s(recording, frame_idx)};
-  const cv::Mat depth = recording.depth ? recording.depth(frame_idx) : recording.frame(frame_idx).depth;
-  return std::make_shared<const FrameFeatures>(
-      measured_features(*hindsight.features[frame_idx], depth, recording.camera, exposure, parameters));
+  return std::make_shared<const FrameFeatures>(measured_features(*hindsight.features[frame_idx],
+                                                                 depth_of(recording, frame_idx),
+                                                                 recording.camera, exposure, parameters));
 }
 
 Hindsight learn(const Recording& recording, Tracker& tracker, const SensorTiming& timing) {
@@ -118,15 +145,16 @@ FinishedMap finish_map(const Recording& recording, const Parameters& parameters,
   Map& map = tracker.map();
   FinishedMap finished;
   if (parameters.passes == 0) return finished;
-  measure_again(recording, parameters, {}, true, tracker);
+  const Recording remembering = remembering_depth(recording);
+  measure_again(remembering, parameters, {}, true, tracker);
   finished.timing = adjust_all(map, pinhole, {});
   const bool timed = worth_another_pass(recording, learn(recording, tracker, finished.timing));
-  if (timed) finished.timing = settle_timing(recording, parameters, pinhole, finished.timing, tracker);
+  if (timed) finished.timing = settle_timing(remembering, parameters, pinhole, finished.timing, tracker);
   const auto waits = [](const TrackedFrame& frame) { return frame.waiting && frame.waiting->size() > 0; };
   if (std::any_of(tracker.frames().begin(), tracker.frames().end(), waits)) {
     const SensorTiming measured_with = timed ? finished.timing : SensorTiming{};
     const std::vector<std::size_t> trusted = join_waiting_features(tracker);
-    measure_again(recording, parameters, measured_with, true, tracker);
+    measure_again(remembering, parameters, measured_with, true, tracker);
     finished.still_landmarks = admit_still_features(map, trusted, pinhole);
     finished.timing = adjust_all(map, pinhole, measured_with);
   }

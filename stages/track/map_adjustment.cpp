@@ -130,14 +130,16 @@ SensorTiming adjust_all(Map& map, const Pinhole& pinhole, const SensorTiming& ti
   const Extract with_outliers = adjusted(extract(map, keyframes, pinhole), true, true).second;
   write_back(with_outliers, map);
   drop_outliers(with_outliers, pinhole, map);
-  const auto [timed_cost, timed] = adjusted(extract(map, keyframes, pinhole), false, true);
-  const auto [cost, untimed] = adjusted(timed, false, false);
+  auto [timed_cost, last] = adjusted(extract(map, keyframes, pinhole), false, true);
   const bool known =
       timing.readout_s != 0 || timing.depth_lag_s != 0;  // what is believed once is only made finer
-  const bool believed = timed_cost < (known ? 1 : 1 - kBelievedGain) * cost;
-  write_back(believed ? timed : untimed, map);
-  drop_outliers(believed ? timed : untimed, pinhole, map);
-  return (believed ? timed : untimed).bundle.timing;
+  if (!known) {
+    auto [cost, untimed] = adjusted(last, false, false);
+    if (timed_cost >= (1 - kBelievedGain) * cost) last = std::move(untimed);
+  }
+  write_back(last, map);
+  drop_outliers(last, pinhole, map);
+  return last.bundle.timing;
 }
 
 }  // namespace sediment::track
