@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <random>
 
+#include "benchmarks/timing.hpp"
 #include "stages/fuse/back_projection.hpp"
 
 using namespace sediment;
@@ -52,7 +53,7 @@ int main() {
                    cloud);
       points += cloud.size();
     });
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = benchmark::seconds_since(start);
     std::printf("| %zu | %.0f | %.1f |\n", threads, kFrames / seconds,
                 static_cast<double>(points) / seconds * 1e-6);
   }

@@ -2,17 +2,18 @@
 // near each instance's outline. One core, one run, printed as Markdown. Arguments: folders of twins; default:
 // those of the real data.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "benchmarks/timing.hpp"
 #include "pipeline/artifacts/image_file.hpp"
 #include "stages/interaction-mask/contact.hpp"
 #include "tests/support/needs.hpp"
 
 using namespace sediment;
+using benchmark::seconds_of;
 using namespace sediment::interaction_mask;
 namespace fs = std::filesystem;
 
@@ -79,13 +80,6 @@ std::vector<ContactSum> direct_double_loop(const TestFrame& frame) {
   return sums;
 }
 
-template <class Work>
-double milliseconds(const Work& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
   return values[values.size() / 2];
@@ -102,11 +96,11 @@ void measure(const fs::path& twin) {
       sums = contact_sums(frame.ids, frame.depth, frame.dynamic_ids, frame.static_ids, kRadius_px);
     };
     run();  // warms the caches, as decoding the images does in the stage
-    ours_ms.push_back(milliseconds(run));
+    ours_ms.push_back(1e3 * seconds_of(run));
     pairs += sums.size();
     if (i % kDirectEvery != 0) continue;
     std::vector<ContactSum> direct;
-    direct_ms.push_back(milliseconds([&] { direct = direct_double_loop(frame); }));
+    direct_ms.push_back(1e3 * seconds_of([&] { direct = direct_double_loop(frame); }));
     ratios.push_back(direct_ms.back() / ours_ms.back());
     different += direct != sums;
   }

@@ -9,6 +9,7 @@
 #include <random>
 #include <sstream>
 
+#include "benchmarks/timing.hpp"
 #include "stages/octree/build_tree.hpp"
 
 using namespace sediment;
@@ -44,10 +45,6 @@ LabelledCloud noisy_room(std::size_t points) {
   return cloud;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 std::string binary(octomap::ColorOcTree& tree) {
   std::stringstream stream;
   tree.writeBinary(stream);
@@ -62,12 +59,12 @@ void measure(std::size_t points) {
     reference.updateNode(octomap::point3d(point.x, point.y, point.z), true);
     reference.integrateNodeColor(point.x, point.y, point.z, point.r, point.g, point.b);
   }
-  const double octomap_s = seconds_since(start);
+  const double octomap_s = benchmark::seconds_since(start);
   for (const int threads : {1, 2}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     start = std::chrono::steady_clock::now();
     const SemanticTree ours = build_tree(sort_into_leaves(cloud, kResolution_m).points, {kResolution_m});
-    const double ours_s = seconds_since(start);
+    const double ours_s = benchmark::seconds_since(start);
     octomap::ColorOcTree copy(*ours.tree);
     std::printf("| %.0f M | %d | %.2f | %.2f | %.1f | %zu | %s |\n", static_cast<double>(points) * 1e-6,
                 threads, ours_s, octomap_s, octomap_s / ours_s, ours.leaf_labels.size(),

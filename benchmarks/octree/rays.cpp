@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "benchmarks/timing.hpp"
 #include "stages/octree/build_tree.hpp"
 #include "tests/synthetic/synthetic_sequence.hpp"
 
@@ -16,10 +17,6 @@ using namespace sediment;
 using namespace sediment::octree;
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 octomap::point3d origin_of(const Pose& pose) {
   return {static_cast<float>(pose.translation.x), static_cast<float>(pose.translation.y),
@@ -83,7 +80,7 @@ int main(int argc, char** argv) {
         ray_ends({pose, sequence.frames[i].depth, {}}, sequence.camera, rays, {}, resolution_m), reference);
     const auto start = std::chrono::steady_clock::now();
     reference.insertPointCloud(cloud, origin_of(pose), -1, false, true);
-    octomap_s += seconds_since(start);
+    octomap_s += benchmark::seconds_since(start);
   }
   std::puts(
       "| frames | cell [m] | threads | ours: rays [s] | with the tree [s] | OctoMap [s] | ratio | leaves | "
@@ -92,9 +89,9 @@ int main(int argc, char** argv) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     const auto start = std::chrono::steady_clock::now();
     const RayMap map = cast_all(sequence, resolution_m, 2 * static_cast<std::size_t>(threads));
-    const double cast_s = seconds_since(start);
+    const double cast_s = benchmark::seconds_since(start);
     SemanticTree ours = build_tree({}, map.cells(), Occupied::by_rays, {.resolution_m = resolution_m});
-    const double all_s = seconds_since(start);
+    const double all_s = benchmark::seconds_since(start);
     std::printf("| %d | %.3f | %d | %.2f | %.2f | %.1f | %.1f | %zu | %s |\n", frames, resolution_m, threads,
                 cast_s, all_s, octomap_s, octomap_s / all_s, ours.tree->getNumLeafNodes(),
                 is_equal(*ours.tree, reference) ? "equal" : "DIFFERENT");

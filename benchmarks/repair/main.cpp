@@ -2,15 +2,16 @@
 // sums pixel by pixel with exponentials from a table. One core, the detections of synthetic frames, printed
 // as Markdown.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
 
+#include "benchmarks/timing.hpp"
 #include "stages/repair/snap.hpp"
 #include "tests/synthetic/synthetic_sequence.hpp"
 
 using namespace sediment;
+using benchmark::seconds_of;
 using namespace sediment::repair;
 
 namespace {
@@ -75,13 +76,6 @@ std::vector<Case> cases() {
   return cases;
 }
 
-template <class Work>
-double milliseconds(const Work& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
 }  // namespace
 
 int main() {
@@ -91,15 +85,16 @@ int main() {
     for (const SoftMask& mask : one.masks) {
       const cv::Mat band(mask.share.size(), CV_8UC1, cv::Scalar(255));
       cv::Mat fast, bordered, direct = mask.share.clone();
-      vectors_ms += milliseconds([&] { fast = mean_of_like(mask.share, mask.where, band, one.guide); });
+      vectors_ms += 1e3 * seconds_of([&] { fast = mean_of_like(mask.share, mask.where, band, one.guide); });
       const int border = one.guide.border_px;
       cv::copyMakeBorder(mask.share, bordered, border, border, border, border, cv::BORDER_REPLICATE);
-      direct_ms += milliseconds([&] {
-        for (int y = 0; y < direct.rows; ++y)
-          for (int x = 0; x < direct.cols; ++x)
-            direct.at<float>(y, x) = direct_mean(one.guide, bordered, x + mask.where.x + border,
-                                                 y + mask.where.y + border, x + border, y + border);
-      });
+      direct_ms += 1e3 * seconds_of([&] {
+                     for (int y = 0; y < direct.rows; ++y)
+                       for (int x = 0; x < direct.cols; ++x)
+                         direct.at<float>(y, x) =
+                             direct_mean(one.guide, bordered, x + mask.where.x + border,
+                                         y + mask.where.y + border, x + border, y + border);
+                   });
       largest = std::max(largest, cv::norm(fast, direct, cv::NORM_INF));
       ++masks;
     }

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <thread>
 
+#include "benchmarks/timing.hpp"
 #include "pipeline/artifacts/masks.hpp"
 #include "stages/segment/network/letterbox.hpp"
 #include "stages/segment/network/network.hpp"
@@ -47,8 +48,7 @@ Cost cost(const Work& work, std::size_t frames) {
   const double processor_before = processor_ms();
   const auto start = std::chrono::steady_clock::now();
   work();
-  const double wall_ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  const double wall_ms = 1e3 * benchmark::seconds_since(start);
   const auto count = static_cast<double>(frames);
   return {wall_ms / count, (processor_ms() - processor_before) / count};
 }

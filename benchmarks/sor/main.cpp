@@ -7,27 +7,21 @@
 #include <sys/resource.h>
 #include <tbb/global_control.h>
 
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <string>
 
+#include "benchmarks/timing.hpp"
 #include "pipeline/artifacts/cloud.hpp"
 #include "stages/sor/outlier_filter.hpp"
 #include "tests/stages/sor/test_clouds.hpp"
 
 using namespace sediment;
+using benchmark::seconds_of;
 
 namespace {
 
 constexpr std::size_t kTooManyForPcl = 20'000'000;
-
-template <class Work>
-double seconds(Work work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 double peak_gb() {
   rusage usage{};
@@ -45,7 +39,7 @@ PclRun run_pcl(const LabelledCloud& cloud, int k) {
   for (const LabelledPoint& p : cloud) input->push_back({p.x, p.y, p.z});
   pcl::Indices kept;
   PclRun run;
-  run.seconds = seconds([&] {
+  run.seconds = seconds_of([&] {
     pcl::StatisticalOutlierRemoval<pcl::PointXYZ> filter;
     filter.setInputCloud(input);
     filter.setMeanK(k);
@@ -62,7 +56,7 @@ void compare(const std::string& name, const LabelledCloud& cloud, int k) {
   for (const std::size_t threads : {1, 2}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     LabelledCloud filtered = cloud;
-    ours_s[threads - 1] = seconds([&] { sor::remove_outliers(filtered, {k, 2.5, sor::Rule::one_sided}); });
+    ours_s[threads - 1] = seconds_of([&] { sor::remove_outliers(filtered, {k, 2.5, sor::Rule::one_sided}); });
     kept = filtered.size();
   }
   std::printf("| %s | %zu | %d | %.2f | %.2f | ", name.c_str(), cloud.size(), k, ours_s[0], ours_s[1]);

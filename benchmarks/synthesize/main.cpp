@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -13,21 +12,17 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "benchmarks/timing.hpp"
 #include "pipeline/artifacts/image_file.hpp"
 #include "tools/synthesize/color_sensor.hpp"
 #include "tools/synthesize/depth_sensor.hpp"
 #include "tools/synthesize/sequence_writer.hpp"
 
 using namespace sediment;
+using benchmark::seconds_of;
 using namespace sediment::synthetic;
 
 namespace {
-
-double seconds_of(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 // Processor time, so that other programs disturb little.
 void row(const char* part, int times, const std::function<void(int)>& work) {

@@ -10,6 +10,7 @@
 #include <exception>
 #include <optional>
 
+#include "benchmarks/timing.hpp"
 #include "stages/track/recording.hpp"
 
 using namespace sediment;
@@ -42,9 +43,8 @@ Cost cost_a_frame(std::size_t frames, const Work& work) {
   const double before_ms = processor_ms();
   const auto start = std::chrono::steady_clock::now();
   work();
-  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
-  return {wall.count() / static_cast<double>(frames),
-          (processor_ms() - before_ms) / static_cast<double>(frames)};
+  const double wall_ms = 1e3 * benchmark::seconds_since(start);
+  return {wall_ms / static_cast<double>(frames), (processor_ms() - before_ms) / static_cast<double>(frames)};
 }
 
 Recording beginning_of(Recording recording, std::size_t frames) {

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <string>
 
+#include "benchmarks/timing.hpp"
 #include "pipeline/artifacts/cloud.hpp"
 #include "stages/voxel/voxel_filter.hpp"
 #include "tests/stages/sor/test_clouds.hpp"
@@ -27,7 +28,7 @@ double best_seconds(Work work) {
   for (int i = 0; i < 5; ++i) {
     const auto start = std::chrono::steady_clock::now();
     work();
-    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    best = std::min(best, benchmark::seconds_since(start));
   }
   return best;
 }

@@ -1,8 +1,7 @@
-#include <cstdarg>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/artifacts/label_file.hpp"
+#include "tools/entry/formatted.hpp"
 #include "tools/evaluate-map/map_evaluation.hpp"
 #include "tools/truth/share.hpp"
 
@@ -10,15 +9,6 @@ namespace sediment::tools {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
-
-[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...) {
-  char text[256];
-  std::va_list values;
-  va_start(values, format);
-  std::vsnprintf(text, sizeof text, format, values);
-  va_end(values);
-  return text;
-}
 
 std::string line(const char* name, const std::optional<double>& value, const std::string& note = "") {
   return formatted("  %-34s", name) + (value ? formatted(" %8.4f", *value) : "        -") + "  " + note +

@@ -1,26 +1,16 @@
 #include "tools/evaluate-masks/masks_text.hpp"
 
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/artifacts/text_table.hpp"
 #include "tools/chart/chart.hpp"
+#include "tools/entry/formatted.hpp"
 
 namespace sediment::tools {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
-
-[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...) {
-  char text[256];
-  std::va_list values;
-  va_start(values, format);
-  std::vsnprintf(text, sizeof text, format, values);
-  va_end(values);
-  return text;
-}
 
 std::string number(const std::optional<double>& value) {
   return value ? formatted("%9.4f", *value) : "        -";

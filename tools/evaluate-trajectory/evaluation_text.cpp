@@ -1,23 +1,13 @@
 #include "tools/evaluate-trajectory/evaluation_text.hpp"
 
-#include <cstdarg>
-#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
+#include "tools/entry/formatted.hpp"
 
 namespace sediment::tools {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
-
-[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...) {
-  char text[256];
-  std::va_list values;
-  va_start(values, format);
-  std::vsnprintf(text, sizeof text, format, values);
-  va_end(values);
-  return text;
-}
 
 std::string row(const char* name, std::size_t pairs, const Statistics& s, const char* unit) {
   return formatted("  %-31s %7zu %10.6f %10.6f %10.6f %10.6f %10.6f %10.6f  %s\n", name, pairs, s.rmse,
