@@ -11,7 +11,7 @@ struct MotionParameters {
   double stop_m_s = 0.04;  ///< and rests below this
   int min_frames = 3;      ///< that a motion has above start_m_s
   int memory = 15;         ///< frames between a touch and the motion it causes, or the other way round
-  int margin = 2;          ///< frames more on either side of a motion: speeds are means over five frames
+  int margin = 3;          ///< frames more on either side of a motion: a ghost costs more than they do
 };
 
 /// What is known of one prior static object in one frame.
