@@ -1,3 +1,5 @@
+#include <cstdio>
+
 #include "pipeline/artifacts/label_file.hpp"
 #include "pipeline/contract/progress.hpp"
 #include "pipeline/contract/stage.hpp"
@@ -40,12 +42,17 @@ int main(int argc, char** argv) {
     contract::Progress progress("interaction-mask", sequence.size(), "frames");
     const Counts counts = mask_sequence(sequence, work.in("masks"), labels, parameters, work.out(),
                                         [&] { progress.advance(); });
+    if (counts.speeds_unknown)
+      std::fprintf(stderr,
+                   "interaction-mask: motion: no object has a speed (frames too far apart in time, or masks "
+                   "that the stage repair has not made): what is touched is dynamic, as in the paper\n");
     work.metrics() = {{"frames", sequence.size()},
                       {"prior_dynamic_instances", counts.prior_dynamic_instances},
                       {"non_prior_dynamic_instances", counts.non_prior_dynamic_instances},
                       {"pairs_in_reach", counts.pairs_in_reach},
                       {"pairs_interacting", counts.pairs_interacting},
                       {"dynamic_pixels", counts.dynamic_pixels},
+                      {"speeds_unknown", counts.speeds_unknown},
                       {"instances_of_unlisted_classes", counts.unlisted_classes}};
   });
 }

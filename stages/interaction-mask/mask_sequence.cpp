@@ -55,13 +55,21 @@ class Masking {
       if (!parameters_.motion) write(i, mask.ids, depth, frames_[i].touched_ids);
     });
     std::vector<std::set<int>> moved;
+    bool speeds_known = false;
     if (parameters_.motion) {
-      moved = moved_objects(states(), parameters_.motions);
+      const auto objects = states();
+      for (const auto& frame : objects)
+        speeds_known = speeds_known || std::any_of(frame.begin(), frame.end(), [](const ObjectState& state) {
+                         return state.speed_m_s.has_value();
+                       });
+      moved = moved_objects(objects, parameters_.motions);
       for_each_frame(
           [&](std::size_t i) { write(i, masks_.read(stamp_of(i)).ids, sequence_.depth(i), moved[i]); });
     }
     writer_.finish();
-    return count(moved);
+    Counts counts = count(moved);
+    counts.speeds_unknown = parameters_.motion && !speeds_known && counts.non_prior_dynamic_instances > 0;
+    return counts;
   }
 
  private:
@@ -75,21 +83,13 @@ class Masking {
   /// The prior static objects of every frame.
   std::vector<std::vector<ObjectState>> states() const {
     std::vector<std::vector<ObjectState>> states(sequence_.size());
-    bool known = false, any = false;
     for (std::size_t i = 0; i < states.size(); ++i)
       for (const Instance& instance : masks_.instances(stamp_of(i))) {
-        any = true;
-        known = known || instance.speed_m_s.has_value();
         const auto& movers = frames_[i].prior_dynamic_ids;
         if (std::find(movers.begin(), movers.end(), instance.id) == movers.end())
           states[i].push_back(
               {instance.id, instance.speed_m_s, frames_[i].touched_ids.contains(instance.id)});
       }
-    if (any && !known && sequence_.size() > 1)
-      throw std::runtime_error(
-          folder_.string() +
-          ": motion asks how fast instances are, and these masks do not say: let the stage "
-          "repair make them, or set motion to false");
     return states;
   }
 

@@ -6,6 +6,7 @@
 #include "pipeline/contract/manifest.hpp"
 #include "pipeline/contract/stage.hpp"
 #include "tests/support/run_program.hpp"
+#include "tests/support/same_image.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiny_sequence.hpp"
 
@@ -63,6 +64,19 @@ TEST_CASE("the stage interaction-mask masks the person and the chair beside, and
   const auto metrics = contract::Json::parse(std::ifstream(scene.folder / "result/metrics.json"));
   CHECK(metrics["pairs_interacting"] == kFrames);
   CHECK(metrics["dynamic_pixels"] == kFrames * 320);
+}
+
+TEST_CASE(
+    "the stage interaction-mask goes by touch and says so where motion is asked for and no speed known") {
+  const Scene scene;
+  const test::Outcome by_motion = scene.run(scene.out("motion") + "--motion true"),
+                      by_touch = scene.run(scene.out("touch"));
+  REQUIRE(by_motion.code == 0);
+  REQUIRE(by_touch.code == 0);
+  CHECK_THAT(by_motion.output, Catch::Matchers::Contains("no object has a speed"));
+  const std::string& stamp = scene.sequence.frames[2].stamp;
+  CHECK(test::same_image(DynamicMasksReader(scene.folder / "motion").read(stamp),
+                         DynamicMasksReader(scene.folder / "touch").read(stamp)));
 }
 
 TEST_CASE("the stage interaction-mask writes equal bytes with 1 and with 4 threads") {
