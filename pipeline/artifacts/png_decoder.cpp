@@ -58,7 +58,7 @@ std::optional<Parts> parts_of(std::string_view file) {
 
 // Type of the image, -1 for kinds that are not read here.
 int type_of(std::string_view header) {
-  const int bits = header[8], color = header[9];
+  const Byte bits = static_cast<Byte>(header[8]), color = static_cast<Byte>(header[9]);
   if (header[10] != 0 || header[11] != 0 || header[12] != 0) return -1;  // compression, filters, interlaced
   constexpr int kGray = 0, kRgb = 2;
   if (color == kGray && bits == 8) return CV_8UC1;

@@ -38,7 +38,7 @@ Recording remembering_depth(const Recording& recording) {
   remembering.depth = [&recording, memory](std::size_t i) {
     cv::Mat& kept = memory->depth[i];
     if (!kept.empty()) return kept;
-    const cv::Mat depth = depth_of(recording, i);
+    cv::Mat depth = depth_of(recording, i);
     const auto bytes = static_cast<std::ptrdiff_t>(depth.total() * depth.elemSize());
     if ((memory->free_bytes -= bytes) >= 0) kept = depth;
     return depth;

@@ -119,6 +119,7 @@ void adjust_around(Map& map, int keyframe_idx, const Pinhole& pinhole) {
 
 SensorTiming adjust_all(Map& map, const Pinhole& pinhole, const SensorTiming& timing) {
   std::vector<std::pair<int, bool>> keyframes;
+  keyframes.reserve(map.keyframes.size());
   std::vector<char> begun(map.keyframes.size(), 0);  // the first one of a segment stays where it is
   for (int i = 0; i < static_cast<int>(map.keyframes.size()); ++i)
     keyframes.emplace_back(i, !std::exchange(begun[map.keyframes[i].segment], 1));
