@@ -79,27 +79,26 @@ std::vector<Case> cases() {
 }  // namespace
 
 int main() {
-  double vectors_ms = 0, direct_ms = 0, largest = 0;
+  double vectors_s = 0, direct_s = 0, largest = 0;
   int masks = 0;
   for (const Case& one : cases())
     for (const SoftMask& mask : one.masks) {
       const cv::Mat band(mask.share.size(), CV_8UC1, cv::Scalar(255));
       cv::Mat fast, bordered, direct = mask.share.clone();
-      vectors_ms += 1e3 * seconds_of([&] { fast = mean_of_like(mask.share, mask.where, band, one.guide); });
+      vectors_s += seconds_of([&] { fast = mean_of_like(mask.share, mask.where, band, one.guide); });
       const int border = one.guide.border_px;
       cv::copyMakeBorder(mask.share, bordered, border, border, border, border, cv::BORDER_REPLICATE);
-      direct_ms += 1e3 * seconds_of([&] {
-                     for (int y = 0; y < direct.rows; ++y)
-                       for (int x = 0; x < direct.cols; ++x)
-                         direct.at<float>(y, x) =
-                             direct_mean(one.guide, bordered, x + mask.where.x + border,
-                                         y + mask.where.y + border, x + border, y + border);
-                   });
+      direct_s += seconds_of([&] {
+        for (int y = 0; y < direct.rows; ++y)
+          for (int x = 0; x < direct.cols; ++x)
+            direct.at<float>(y, x) = direct_mean(one.guide, bordered, x + mask.where.x + border,
+                                                 y + mask.where.y + border, x + border, y + border);
+      });
       largest = std::max(largest, cv::norm(fast, direct, cv::NORM_INF));
       ++masks;
     }
   std::printf(
       "| %d masks | ms |\n|---|---|\n| vector code | %.1f |\n| pixel by pixel | %.1f (%.1f times) |\n", masks,
-      vectors_ms, direct_ms, direct_ms / vectors_ms);
+      1e3 * vectors_s, 1e3 * direct_s, direct_s / vectors_s);
   std::printf("\nLargest difference of a mean, as the weights are near to Gaussians: %.3f\n", largest);
 }

@@ -24,6 +24,13 @@ std::vector<Interaction> interactions_of(const TouchedFrame& frame, const std::v
   return interactions;
 }
 
+bool any_speed(const std::vector<std::vector<ObjectState>>& objects) {
+  return std::any_of(objects.begin(), objects.end(), [](const auto& frame) {
+    return std::any_of(frame.begin(), frame.end(),
+                       [](const auto& state) { return state.speed_m_s.has_value(); });
+  });
+}
+
 class Masking {
  public:
   Masking(const Sequence& sequence, const std::filesystem::path& masks, const LabelTable& labels,
@@ -58,10 +65,7 @@ class Masking {
     bool speeds_known = false;
     if (parameters_.motion) {
       const auto objects = states();
-      for (const auto& frame : objects)
-        speeds_known = speeds_known || std::any_of(frame.begin(), frame.end(), [](const ObjectState& state) {
-                         return state.speed_m_s.has_value();
-                       });
+      speeds_known = any_speed(objects);
       moved = moved_objects(objects, parameters_.motions);
       for_each_frame(
           [&](std::size_t i) { write(i, masks_.read(stamp_of(i)).ids, sequence_.depth(i), moved[i]); });

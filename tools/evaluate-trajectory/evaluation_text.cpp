@@ -2,6 +2,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+
 #include "tools/entry/formatted.hpp"
 
 namespace sediment::tools {
