@@ -32,6 +32,7 @@ if command -v ccache >/dev/null; then
   options+=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1  # one cache for all checkouts
   export CCACHE_SLOPPINESS=pch_defines,time_macros  # as precompiled headers ask for
+  export CCACHE_DEPEND=1  # a file that is not in the cache is not preprocessed twice
 fi
 # On a new machine nothing is known from before: fewer, larger files to compile. The build folder keeps that choice.
 cached=$(ccache --print-stats 2>/dev/null | awk '$1 == "files_in_cache" { print $2 }') || true
