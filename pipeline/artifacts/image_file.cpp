@@ -1,6 +1,6 @@
 #include "pipeline/artifacts/image_file.hpp"
 
-#include <array>
+#include <algorithm>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
@@ -10,13 +10,13 @@
 #include "pipeline/artifacts/file_bytes.hpp"
 #include "pipeline/artifacts/png_decoder.hpp"
 #include "pipeline/artifacts/png_encoder.hpp"
+#include "pipeline/artifacts/png_format.hpp"
 
 namespace sediment {
 namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-constexpr std::array<unsigned char, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 constexpr std::array<unsigned char, 8> kPngEnd{'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
 
 Bytes read_at(std::ifstream& stream, std::streamoff offset, std::size_t count) {
@@ -35,16 +35,14 @@ bool ends_with(std::ifstream& stream, std::streamoff size, const unsigned char* 
   return std::search(tail.begin(), tail.end(), mark, mark + length) != tail.end();
 }
 
-int big_endian(const Bytes& bytes, std::size_t at, int count) {
-  int value = 0;
-  for (int i = 0; i < count; ++i) value = value << 8 | bytes[at + i];
-  return value;
+int number(const Bytes& bytes, std::size_t at, std::size_t count) {
+  return static_cast<int>(big_endian(bytes, at, count));
 }
 
 ImageHeader png_header(const Bytes& head) {
   // Colour types: 0 grey, 2 RGB, 3 palette of RGB, 4 grey and alpha, 6 RGB and alpha.
   constexpr int kChannels[7] = {1, 0, 3, 3, 2, 0, 4};
-  ImageHeader header{big_endian(head, 16, 4), big_endian(head, 20, 4), head[24], 0};
+  ImageHeader header{number(head, 16, 4), number(head, 20, 4), head[24], 0};
   if (head[25] < 7) header.channels = kChannels[head[25]];
   return header;
 }
@@ -58,10 +56,10 @@ ImageHeader jpeg_header(std::ifstream& stream, const std::string& name) {
     const bool fill = marker == 0xff, bare = marker == 0x01 || (marker >= 0xd0 && marker <= 0xd7);
     const bool frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
     if (frame)
-      return {big_endian(segment, 7, 2), big_endian(segment, 5, 2), segment[4],
+      return {number(segment, 7, 2), number(segment, 5, 2), segment[4],
               static_cast<int>(read_at(stream, at + 9, 1).at(0))};
     if (marker == 0xda || marker == 0xd9) throw std::runtime_error(name + ": JPEG without a frame header");
-    at += fill ? 1 : bare ? 2 : 2 + big_endian(segment, 2, 2);
+    at += fill ? 1 : bare ? 2 : 2 + number(segment, 2, 2);
   }
 }
 
@@ -98,7 +96,7 @@ ImageHeader probe_image(const std::filesystem::path& file) {
   const Bytes head = read_at(stream, 0, 33);
   ImageHeader header;
   bool whole = false;
-  if (head.size() >= 8 && std::equal(kPngSignature.begin(), kPngSignature.end(), head.begin())) {
+  if (std::string_view(reinterpret_cast<const char*>(head.data()), head.size()).starts_with(kPngSignature)) {
     whole = head.size() == 33 && ends_with(stream, size, kPngEnd.data(), kPngEnd.size());
     if (whole) header = png_header(head);
   } else if (head.size() >= 3 && head[0] == 0xff && head[1] == 0xd8 && head[2] == 0xff) {

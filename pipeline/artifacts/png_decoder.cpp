@@ -12,22 +12,16 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/artifacts/png_format.hpp"
+
 namespace sediment {
 namespace {
 
 using Byte = unsigned char;
 
-constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
-
 struct Free {
   void operator()(libdeflate_decompressor* decompressor) const { libdeflate_free_decompressor(decompressor); }
 };
-
-std::uint32_t big_endian(std::string_view bytes) {
-  std::uint32_t value = 0;
-  for (const char c : bytes.substr(0, 4)) value = value << 8 | static_cast<Byte>(c);
-  return value;
-}
 
 // The header and the compressed rows of a file.
 struct Parts {
@@ -36,13 +30,13 @@ struct Parts {
 };
 
 std::optional<Parts> parts_of(std::string_view file) {
-  if (file.substr(0, kSignature.size()) != kSignature) return {};
+  if (file.substr(0, kPngSignature.size()) != kPngSignature) return {};
   Parts parts;
-  for (std::size_t at = kSignature.size(); file.size() - at >= 12;) {
-    const std::size_t length = big_endian(file.substr(at));
+  for (std::size_t at = kPngSignature.size(); file.size() - at >= 12;) {
+    const std::size_t length = big_endian(file, at);
     if (length > file.size() - at - 12) return {};
     const std::string_view name = file.substr(at + 4, 4), content = file.substr(at + 8, length);
-    if (libdeflate_crc32(0, name.data(), 4 + length) != big_endian(file.substr(at + 8 + length))) return {};
+    if (libdeflate_crc32(0, name.data(), 4 + length) != big_endian(file, at + 8 + length)) return {};
     if (name == "IHDR")
       parts.header = content;
     else if (name == "IDAT")
@@ -157,7 +151,7 @@ cv::Mat decoded_png(std::string_view file) {
   const auto parts = parts_of(file);
   if (!parts) return {};
   const int type = type_of(parts->header);
-  const std::uint32_t width = big_endian(parts->header), height = big_endian(parts->header.substr(4));
+  const std::uint32_t width = big_endian(parts->header), height = big_endian(parts->header, 4);
   if (type < 0 || width == 0 || height == 0 || width > kLargest || height > kLargest) return {};
   cv::Mat image(static_cast<int>(height), static_cast<int>(width), type);
   auto filtered = decompressed(parts->rows, (1 + width * image.elemSize()) * height);

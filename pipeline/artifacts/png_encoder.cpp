@@ -7,6 +7,8 @@
 #include <new>
 #include <vector>
 
+#include "pipeline/artifacts/png_format.hpp"
+
 namespace sediment {
 namespace {
 
@@ -91,7 +93,7 @@ std::string compressed(const std::vector<Byte>& rows) {
 }  // namespace
 
 std::string png_of(const cv::Mat& image) {
-  std::string file = "\x89PNG\r\n\x1a\n";
+  std::string file(kPngSignature);
   append_chunk(file, "IHDR", header_of(image));
   append_chunk(file, "IDAT", compressed(filtered(image)));
   append_chunk(file, "IEND", {});
