@@ -49,8 +49,8 @@ void append_color_row(const Byte* bgr, int width, Byte* out) {
   *out++ = kSub;
   out[0] = bgr[2], out[1] = bgr[1], out[2] = bgr[0];
   for (int u = 1; u < width; ++u) {
-    const Byte* pixel = bgr + 3 * u;
-    Byte* difference = out + 3 * u;
+    const Byte* pixel = bgr + std::ptrdiff_t{3} * u;
+    Byte* difference = out + std::ptrdiff_t{3} * u;
     difference[0] = static_cast<Byte>(pixel[2] - pixel[-1]);
     difference[1] = static_cast<Byte>(pixel[1] - pixel[-2]);
     difference[2] = static_cast<Byte>(pixel[0] - pixel[-3]);
@@ -60,8 +60,8 @@ void append_color_row(const Byte* bgr, int width, Byte* out) {
 void append_gray16_row(const std::uint16_t* gray, int width, Byte* out) {
   *out++ = kNone;
   for (int u = 0; u < width; ++u) {
-    out[2 * u] = static_cast<Byte>(gray[u] >> 8);
-    out[2 * u + 1] = static_cast<Byte>(gray[u] & 0xff);
+    *out++ = static_cast<Byte>(gray[u] >> 8);
+    *out++ = static_cast<Byte>(gray[u] & 0xff);
   }
 }
 

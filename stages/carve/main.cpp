@@ -32,6 +32,10 @@ int main(int argc, char** argv) {
               "of the frames that tell something about a point, more than this must see through it", {0, 1});
   stage.tunes("min_confirmed", parameters.min_confirmed,
               "of the frames whose very pixel shows a point, or what is behind it, fewer make it go", {0, 1});
+  stage.tunes(
+      "max_person_share", parameters.max_person_share,
+      "of the frames whose very pixel shows a point, more that take it for a person make it go; 1: never",
+      {0, 1});
   stage.tunes("settle", parameters.settle,
               "move points to where the frames that see them have them in the mean, weighted by the noise");
   stage.tunes("keep_removed", keep_removed, "write what was cut as removed.pcd");

@@ -8,6 +8,8 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/scene/frame.hpp"
+
 namespace sediment::carve {
 namespace {
 
@@ -63,17 +65,21 @@ struct Look {
       count(votes.hits);
     else if (measured_m > p.z + tolerance_m(measured_m))
       count(votes.behind);
-    if (parameters.settle) settle(u, v, p, measured_m, votes);
+    if (measured_m > 0 && std::abs(measured_m - p.z) <= tolerance_m(measured_m))
+      show(u, v, p, measured_m, votes);
   }
 
   static void count(std::uint16_t& votes) {
     votes += votes < std::numeric_limits<std::uint16_t>::max() ? 1 : 0;
   }
 
-  void settle(int u, int v, Vec3 p, double measured_m, Votes& votes) const {
-    if (!(measured_m > 0 && std::abs(measured_m - p.z) <= tolerance_m(measured_m))) return;
-    if (!view.dynamic.empty() && view.dynamic.at<std::uint8_t>(v, u) != 0) return;
-    count(votes.settled);
+  /// The very pixel shows the point.
+  void show(int u, int v, Vec3 p, double measured_m, Votes& votes) const {
+    const std::uint8_t dynamic =
+        view.dynamic.empty() ? std::uint8_t{kStatic} : view.dynamic.at<std::uint8_t>(v, u);
+    if (dynamic == kPriorDynamic) count(votes.person);
+    if (dynamic != kStatic) return;
+    count(votes.shown);
     // No sensor is better than a millimetre.
     const double deviation_m = std::max(0.001, parameters.noise * measured_m * measured_m);
     const double weight = 1 / (deviation_m * deviation_m);
@@ -100,11 +106,14 @@ bool is_carved(const Votes& votes, const Parameters& parameters) {
   const int told = votes.through + votes.hits;
   if (votes.through >= parameters.min_views && votes.through > parameters.min_share * told) return true;
   const int behind = votes.through + votes.behind;
-  return behind >= parameters.min_views && votes.hits < parameters.min_confirmed * (votes.hits + behind);
+  if (behind >= parameters.min_views && votes.hits < parameters.min_confirmed * (votes.hits + behind))
+    return true;
+  return votes.person >= parameters.min_views &&
+         votes.person > parameters.max_person_share * (votes.person + votes.shown);
 }
 
 LabelledPoint settled(LabelledPoint point, const Votes& votes, const Parameters& parameters) {
-  if (votes.settled < parameters.min_views) return point;
+  if (votes.shown < parameters.min_views) return point;
   point.x += votes.x / votes.weight;
   point.y += votes.y / votes.weight;
   point.z += votes.z / votes.weight;

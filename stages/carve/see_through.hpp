@@ -21,6 +21,9 @@ struct Parameters {
   /// A point stays only if at least this share of the views in which its very pixel shows it, or something
   /// behind it, show it: what sensors see in the air beside an edge is elsewhere in the next view.
   double min_confirmed = 0.2;
+  /// A point goes if more than this share of the views whose very pixel shows it take it for a person: where
+  /// a network is of two minds, the map keeps people out.
+  double max_person_share = 0.25;
   bool settle = false;  ///< move points to where the views that see them have them in the mean
 };
 
@@ -36,7 +39,8 @@ struct Votes {
   std::uint16_t through = 0;  ///< views that see through it
   std::uint16_t hits = 0;     ///< views that see it
   std::uint16_t behind = 0;   ///< other views whose very pixel shows something behind it: maybe an edge
-  std::uint16_t settled = 0;  ///< views that say where it is
+  std::uint16_t shown = 0;    ///< views whose very pixel shows it, static
+  std::uint16_t person = 0;   ///< views whose very pixel shows it, and takes it for a person
   float weight = 0;           ///< sum of those views' weights: the inverse of the noise's variance, 1/m^2
   float x = 0, y = 0, z = 0;  ///< weighted sum of the ways to where they have it, world, metres
 };
@@ -47,8 +51,9 @@ struct Votes {
 /// edge, on a surface seen at a grazing angle or where the sensor says nothing is never seen through. In
 /// parallel; votes do not depend on it.
 ///
-/// The pixel on which the point's image falls also says where it is, if its depth is static and that of the
-/// point within the tolerance: on its ray, at the depth measured.
+/// The pixel on which the point's image falls shows the point if its depth is that of the point within the
+/// tolerance. It says whether a person is there or, if it is static, where the point is: on its ray, at the
+/// depth measured.
 void add_votes(const LabelledCloud& cloud, const Camera& camera, const DepthView& view,
                const Parameters& parameters, std::vector<Votes>& votes);
 

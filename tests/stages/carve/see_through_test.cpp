@@ -138,7 +138,7 @@ TEST_CASE("a point settles where the views have it in the mean, the exact ones c
   for (int i = 0; i < 3; ++i) add_votes({point}, small_camera(), {{}, wall_at(3), {}}, parameters, votes);
   const Pose nearer{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, -2}};
   add_votes({point}, small_camera(), {nearer, wall_at(1.02), {}}, parameters, votes);
-  REQUIRE(votes[0].settled == 4);
+  REQUIRE(votes[0].shown == 4);
   const LabelledPoint there = settled(point, votes[0], parameters);
   const double far = 3 / std::pow(3.0, 4), near = 1 / std::pow(1.02, 4);
   CHECK(there.z == Approx((far * 3.00 + near * 3.02) / (far + near)).margin(2e-5));
@@ -152,7 +152,7 @@ TEST_CASE("a point settles where the views have it in the mean, the exact ones c
   const DepthView moving{{}, wall_at(3), cv::Mat(48, 64, CV_8UC1, cv::Scalar(1))};
   std::vector<Votes> by_movers(1);
   add_votes({point}, small_camera(), moving, parameters, by_movers);
-  CHECK(by_movers[0].settled == 0);
+  CHECK(by_movers[0].shown == 0);
 }
 
 TEST_CASE("a noisy wall that many views see comes out flat") {
@@ -189,8 +189,8 @@ TEST_CASE("votes do not depend on the number of threads") {
     add_votes(cloud, small_camera(), {{}, wall_at(3), {}}, {.settle = true}, votes);
   }
   const auto same = [](const Votes& a, const Votes& b) {
-    return a.through == b.through && a.hits == b.hits && a.behind == b.behind && a.settled == b.settled &&
-           a.weight == b.weight && a.x == b.x && a.y == b.y && a.z == b.z;
+    return a.through == b.through && a.hits == b.hits && a.behind == b.behind && a.shown == b.shown &&
+           a.person == b.person && a.weight == b.weight && a.x == b.x && a.y == b.y && a.z == b.z;
   };
   CHECK(std::equal(results[0].begin(), results[0].end(), results[1].begin(), same));
 }
