@@ -155,6 +155,22 @@ TEST_CASE("a point settles where the views have it in the mean, the exact ones c
   CHECK(by_movers[0].shown == 0);
 }
 
+TEST_CASE("a point goes that more than the share of the frames which show it take for a person") {
+  const auto goes = [](int person, int shown, double wall_m = 3, int dynamic = 1) {
+    const LabelledPoint point = at(0.2, -0.1, 3);
+    std::vector<Votes> votes(1);
+    const DepthView taken_for{{}, wall_at(wall_m), cv::Mat(48, 64, CV_8UC1, cv::Scalar(dynamic))};
+    for (int i = 0; i < person; ++i) add_votes({point}, small_camera(), taken_for, {}, votes);
+    for (int i = 0; i < shown; ++i) add_votes({point}, small_camera(), {{}, wall_at(3), {}}, {}, votes);
+    return is_carved(votes[0], {});
+  };
+  CHECK(goes(4, 11));
+  CHECK_FALSE(goes(4, 12));
+  CHECK_FALSE(goes(2, 0));          // fewer than min_views
+  CHECK_FALSE(goes(40, 12, 2));     // a person before it
+  CHECK_FALSE(goes(40, 12, 3, 2));  // an object that moved there: it may rest
+}
+
 TEST_CASE("a noisy wall that many views see comes out flat") {
   const Parameters parameters{.settle = true};
   std::mt19937 random(5);
