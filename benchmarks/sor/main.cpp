@@ -1,12 +1,15 @@
 // Outlier removal on 1 and 2 threads against pcl::StatisticalOutlierRemoval (which has one) in the same run,
 // one-sided so that both must keep the same points. Printed as Markdown.
-//   benchmark-sor [POINTS[xK]...] [CLOUD_FOLDER...]      default: 1000000x50 1000000x20; from 20 million
-//   points on without PCL
+//   benchmark-sor [POINTS[xK][b]...] [CLOUD_FOLDER...]      default: 1000000x50 1000000x20
+// POINTS make one room, which gets denser: from some 10 million points on its walls, 5 mm of noise, are
+// thicker than the neighbourhoods are wide. With b they make a building of rooms of a million points each,
+// which gets larger. From 20 million points on without PCL.
 #include <pcl/filters/statistical_outlier_removal.h>
 #include <pcl/point_types.h>
 #include <sys/resource.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -50,6 +53,22 @@ PclRun run_pcl(const LabelledCloud& cloud, int k) {
   return run;
 }
 
+constexpr std::size_t kRoomPoints = 1'000'000;
+
+/// Rooms side by side, ten a row.
+LabelledCloud building(std::size_t points) {
+  LabelledCloud cloud;
+  for (std::size_t room = 0; cloud.size() < points; ++room) {
+    const std::size_t size = std::min(kRoomPoints, points - cloud.size());
+    const std::size_t row = room / 10, column = room % 10;
+    for (LabelledPoint p : test::noisy_room(size, static_cast<std::uint32_t>(room + 1))) {
+      p.x += 7.0f * static_cast<float>(column), p.y += 6.0f * static_cast<float>(row);
+      cloud.push_back(p);
+    }
+  }
+  return cloud;
+}
+
 void compare(const std::string& name, const LabelledCloud& cloud, int k) {
   std::size_t kept = 0;
   double ours_s[2];
@@ -84,7 +103,10 @@ int main(int argc, char** argv) {
       continue;
     }
     const std::size_t x = job.find('x');
-    compare("noisy room", test::noisy_room(std::stoul(job), 1),
-            x == std::string::npos ? 50 : std::stoi(job.substr(x + 1)));
+    const int k = x == std::string::npos ? 50 : std::stoi(job.substr(x + 1));
+    if (job.ends_with('b'))
+      compare("building", building(std::stoul(job)), k);
+    else
+      compare("noisy room", test::noisy_room(std::stoul(job), 1), k);
   }
 }
