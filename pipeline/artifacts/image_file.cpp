@@ -1,10 +1,12 @@
 #include "pipeline/artifacts/image_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/artifacts/file_bytes.hpp"

@@ -33,15 +33,21 @@ struct Look {
     return parameters.slack_m + parameters.sigmas * parameters.noise * depth_m * depth_m;
   }
 
+  bool agree(double measured_m, double depth_m) const {
+    return measured_m > 0 && std::abs(measured_m - depth_m) <= tolerance_m(measured_m);
+  }
+
+  std::uint8_t dynamic_at(int u, int v) const {
+    return view.dynamic.empty() ? std::uint8_t{kStatic} : view.dynamic.at<std::uint8_t>(v, u);
+  }
+
   /// Judged by the measured depth, as seeing through is: a depth is one or the other or in front.
   bool sees(int u, int v, double depth_m) const {
     const int reach = parameters.window_px;
     for (int y = std::max(0, v - reach); y <= std::min(view.depth.rows - 1, v + reach); ++y)
       for (int x = std::max(0, u - reach); x <= std::min(view.depth.cols - 1, u + reach); ++x) {
         const double measured_m = view.depth.at<std::uint16_t>(y, x) / camera.depth_scale;
-        if (measured_m > 0 && std::abs(measured_m - depth_m) <= tolerance_m(measured_m) &&
-            (view.dynamic.empty() || view.dynamic.at<std::uint8_t>(y, x) == 0))
-          return true;
+        if (agree(measured_m, depth_m) && dynamic_at(x, y) == kStatic) return true;
       }
     return false;
   }
@@ -65,21 +71,19 @@ struct Look {
       count(votes.hits);
     else if (measured_m > p.z + tolerance_m(measured_m))
       count(votes.behind);
-    if (measured_m > 0 && std::abs(measured_m - p.z) <= tolerance_m(measured_m))
-      show(u, v, p, measured_m, votes);
+    if (!agree(measured_m, p.z)) return;
+    const std::uint8_t dynamic = dynamic_at(u, v);
+    if (dynamic == kPriorDynamic) count(votes.person);
+    if (dynamic != kStatic) return;
+    count(votes.shown);
+    if (parameters.settle) settle(p, measured_m, votes);
   }
 
   static void count(std::uint16_t& votes) {
     votes += votes < std::numeric_limits<std::uint16_t>::max() ? 1 : 0;
   }
 
-  /// The very pixel shows the point.
-  void show(int u, int v, Vec3 p, double measured_m, Votes& votes) const {
-    const std::uint8_t dynamic =
-        view.dynamic.empty() ? std::uint8_t{kStatic} : view.dynamic.at<std::uint8_t>(v, u);
-    if (dynamic == kPriorDynamic) count(votes.person);
-    if (dynamic != kStatic) return;
-    count(votes.shown);
+  void settle(Vec3 p, double measured_m, Votes& votes) const {
     // No sensor is better than a millimetre.
     const double deviation_m = std::max(0.001, parameters.noise * measured_m * measured_m);
     const double weight = 1 / (deviation_m * deviation_m);

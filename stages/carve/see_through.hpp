@@ -39,8 +39,8 @@ struct Votes {
   std::uint16_t through = 0;  ///< views that see through it
   std::uint16_t hits = 0;     ///< views that see it
   std::uint16_t behind = 0;   ///< other views whose very pixel shows something behind it: maybe an edge
-  std::uint16_t shown = 0;    ///< views whose very pixel shows it, static
   std::uint16_t person = 0;   ///< views whose very pixel shows it, and takes it for a person
+  std::uint16_t shown = 0;    ///< views whose very pixel shows it, static: they say where it is
   float weight = 0;           ///< sum of those views' weights: the inverse of the noise's variance, 1/m^2
   float x = 0, y = 0, z = 0;  ///< weighted sum of the ways to where they have it, world, metres
 };
