@@ -25,6 +25,13 @@ bool is_edge(const cv::Mat& depth, int x, int y, double tolerance_units) {
 
 enum class Says { nothing, through, beyond, hit };
 
+/// The references on one side in time that say something of a pixel.
+struct Side {
+  int told = 0, hits = 0;
+  /// A thing that glides shows itself where it was a moment ago, too: one hit does not do.
+  bool shows() const { return 3 * hits > told; }
+};
+
 /// One reference as seen from one view.
 struct Pair {
   const Reference& reference;
@@ -111,16 +118,18 @@ Verdicts verdicts_of(const View& view, std::span<const Reference* const> referen
       if (is_edge(view.depth, x, y, step_m * camera.depth_scale)) continue;
       const Ray& ray = rays[static_cast<std::size_t>(y) * camera.width + x];
       const Vec3 point{ray.x * z, ray.y * z, z};
-      bool before = false, after = false;
+      Side before, after;
       for (const Pair& pair : pairs) {
         const Says says = judge(pair, camera, point, parameters);
+        if (says == Says::nothing) continue;
+        Side& side = pair.reference.stamp_s < view.stamp_s ? before : after;
+        ++side.told;
+        side.hits += says == Says::hit;
         if (says == Says::through) count(verdicts.through.at<std::uint8_t>(row, column));
         if (says == Says::beyond) count(verdicts.beyond.at<std::uint8_t>(row, column));
-        if (says != Says::hit) continue;
-        count(verdicts.hits.at<std::uint8_t>(row, column));
-        (pair.reference.stamp_s < view.stamp_s ? before : after) = true;
+        if (says == Says::hit) count(verdicts.hits.at<std::uint8_t>(row, column));
       }
-      verdicts.lasting.at<std::uint8_t>(row, column) = before && after ? 255 : 0;
+      verdicts.lasting.at<std::uint8_t>(row, column) = before.shows() && after.shows() ? 255 : 0;
     }
   return verdicts;
 }

@@ -23,6 +23,10 @@ struct ContradictionParameters {
 };
 
 constexpr int kStep_px = 2;  ///< of the grid of pixels that are judged
+/// That which stands for a cell of the grid.
+inline cv::Point pixel_of(const cv::Point& cell) {
+  return cell * kStep_px + cv::Point(kStep_px / 2, kStep_px / 2);
+}
 
 /// How fast the camera moves and turns.
 struct Speed {
@@ -60,7 +64,8 @@ struct Verdicts {
   cv::Mat through;  ///< CV_8UC1: how many see through what the pixel shows: it was not there then
   cv::Mat hits;     ///< CV_8UC1: how many see it where it is
   cv::Mat beyond;   ///< CV_8UC1: how many see what lies behind it, but not all around
-  cv::Mat lasting;  ///< CV_8UC1: 255 where some do so before and some after, or where nothing was asked
+  cv::Mat lasting;  ///< CV_8UC1: 255 where more than a third of those that say anything see it, before and
+                    ///< after; or where nothing was asked
 };
 
 /// Projects every pixel of the grid that has a depth into the references. One sees through it if every pixel

@@ -8,7 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "pipeline/scene/frame_poses.hpp"
+#include "stages/movers/other_view.hpp"
+#include "stages/movers/sequence_views.hpp"
 
 namespace sediment::movers {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 constexpr std::size_t kBatch = 16;
 constexpr std::size_t kWitnesses = 2;     ///< frames on either side
 constexpr double kWitnessPause_s = 0.25;  ///< frames further apart bear no witness
+constexpr double kStampError_s = 5e-4;    ///< stamps are rounded
 constexpr int kOutline_px = 5;            ///< pixels near the outlines that the grid leaves open
 constexpr double kFastest_px_s =
     900;  ///< across the image, that a mover may have besides the camera's motion
@@ -24,7 +26,9 @@ constexpr double kFastest_px_s =
 struct Look {
   bool has_pose = false;
   View view;
-  cv::Mat regions;  ///< candidates, on the grid
+  cv::Mat regions;    ///< candidates, on the grid
+  cv::Mat confirmed;  ///< those that have witnesses
+  cv::Mat lasting;    ///< as of the verdicts
 };
 
 class Search {
@@ -38,8 +42,7 @@ class Search {
         writer_(writer),
         on_frame_(on_frame),
         rays_(rays_of(sequence.camera())),
-        stamps_(stamps_of(sequence)),
-        poses_(stamps_, trajectory) {
+        views_(sequence, dynamic, trajectory) {
     choose_references();
   }
 
@@ -48,72 +51,46 @@ class Search {
       const std::size_t end = std::min(begin + kBatch, sequence_.size());
       load_references(begin, end);
       look(begin, end);
-      finish_until(end == sequence_.size() ? end : end - std::min(end, kWitnesses));
+      confirm_until(end == sequence_.size() ? end : end - std::min(end, kWitnesses));
+      finish_until(end == sequence_.size() ? end : confirmed_ - std::min(confirmed_, parameters_.margin));
     }
     writer_.finish();
     return counts_;
   }
 
  private:
-  static std::vector<FrameStamp> stamps_of(const Sequence& sequence) {
-    std::vector<FrameStamp> stamps;
-    for (std::size_t i = 0; i < sequence.size(); ++i)
-      stamps.push_back({sequence.entry(i).stamp, sequence.entry(i).stamp_s});
-    return stamps;
-  }
-
   /// Frames with a pose, evenly in time: one set for all, so that each is read once.
   void choose_references() {
     const double apart_s = 2 * parameters_.reach_s / parameters_.views;
     double next_s = -1e300;
-    for (std::size_t i = 0; i < stamps_.size(); ++i) {
-      if (!poses_.pose_of(stamps_[i])) {
+    for (std::size_t i = 0; i < sequence_.size(); ++i) {
+      if (!views_.has_pose(i)) {
         ++counts_.frames_without_pose;
         continue;
       }
-      // Half a millisecond: stamps are rounded.
-      if (stamps_[i].stamp_s < next_s - 5e-4) continue;
+      if (views_.stamp_s(i) < next_s - kStampError_s) continue;
       references_[i] = {};
-      next_s = stamps_[i].stamp_s + apart_s;
+      next_s = views_.stamp_s(i) + apart_s;
     }
     counts_.references = references_.size();
     if (references_.empty())
       throw std::runtime_error("no frame of the sequence has a pose in the trajectory: nothing contradicts");
   }
 
-  /// From the poses of the frames before and after.
-  Speed speed_of(std::size_t i) const {
-    const std::size_t before = i - std::min<std::size_t>(i, 1), after = std::min(i + 1, stamps_.size() - 1);
-    const auto from = poses_.pose_of(stamps_[before]), to = poses_.pose_of(stamps_[after]);
-    const double seconds = stamps_[after].stamp_s - stamps_[before].stamp_s;
-    if (!from || !to || !(seconds > 0)) return {};
-    const Pose moved = from->inverse() * *to;
-    return {norm(moved.translation) / seconds, rotation_angle(moved) / seconds};
-  }
-
-  View read_view(std::size_t i) const {
-    View view{
-        stamps_[i].stamp_s, poses_.pose_of(stamps_[i]).value_or(Pose{}), speed_of(i), sequence_.depth(i), {}};
-    const std::string& stamp = stamps_[i].stamp;
-    view.dynamic =
-        dynamic_.has(stamp) ? dynamic_.read(stamp) : cv::Mat(view.depth.size(), CV_8UC1, cv::Scalar(kStatic));
-    if (view.dynamic.size() != view.depth.size())
-      throw std::runtime_error("dynamic mask of frame " + stamp + ": " + std::to_string(view.dynamic.cols) +
-                               " x " + std::to_string(view.dynamic.rows) + " pixels, the depth image has " +
-                               std::to_string(view.depth.cols) + " x " + std::to_string(view.depth.rows));
-    return view;
-  }
-
-  bool near_in_time(std::size_t a, std::size_t b, double reach_s) const {
-    return std::abs(stamps_[a].stamp_s - stamps_[b].stamp_s) <= reach_s + 5e-4;
+  /// How far in time a frame looks: near the sequence's ends about as far to either side, or what rests there
+  /// and moves later would be contradicted more often than seen.
+  double reach_of(std::size_t i) const {
+    const double to_end_s = std::min(views_.apart_s(0, i), views_.apart_s(i, sequence_.size() - 1));
+    return std::clamp(to_end_s, 2 * parameters_.reach_s / 3, parameters_.reach_s);
   }
 
   /// Those that the frames begin .. end - 1 need; others are forgotten.
   void load_references(std::size_t begin, std::size_t end) {
     std::vector<std::size_t> missing;
     for (auto& [i, reference] : references_) {
-      const bool needed = stamps_[i].stamp_s >= stamps_[begin].stamp_s - parameters_.reach_s - 1e-3 &&
-                          stamps_[i].stamp_s <= stamps_[end - 1].stamp_s + parameters_.reach_s + 1e-3;
+      const double before_s = views_.stamp_s(begin) - views_.stamp_s(i),
+                   after_s = views_.stamp_s(i) - views_.stamp_s(end - 1);
+      const bool needed = std::max(before_s, after_s) <= parameters_.reach_s + 2 * kStampError_s;
       if (!needed)
         reference = {};
       else if (reference.depth.empty())
@@ -121,7 +98,7 @@ class Search {
     }
     tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t m) {
       references_.at(missing[m]) =
-          reference_of(read_view(missing[m]), sequence_.camera(), parameters_.contradiction);
+          reference_of(views_.read(missing[m]), sequence_.camera(), parameters_.contradiction);
     });
   }
 
@@ -130,35 +107,59 @@ class Search {
     looks_.resize(first + end - begin);
     tbb::parallel_for(begin, end, [&](std::size_t i) {
       Look& look = looks_[first + i - begin];
-      look.view = read_view(i);
-      look.has_pose = poses_.pose_of(stamps_[i]).has_value();
+      look.view = views_.read(i);
+      look.has_pose = views_.has_pose(i);
       look.regions =
           cv::Mat(look.view.depth.rows / kStep_px, look.view.depth.cols / kStep_px, CV_8UC1, cv::Scalar(0));
       if (!look.has_pose) return;
       std::vector<const Reference*> others;
+      const double reach_s = reach_of(i);
       for (const auto& [r, reference] : references_)
-        if (r != i && near_in_time(r, i, parameters_.reach_s)) others.push_back(&reference);
+        if (r != i && views_.apart_s(r, i) <= reach_s + kStampError_s) others.push_back(&reference);
       const Verdicts verdicts =
           verdicts_of(look.view, others, sequence_.camera(), rays_, parameters_.contradiction);
+      look.lasting = verdicts.lasting;
       look.regions = regions_of(verdicts, look.view, sequence_.camera().depth_scale, parameters_.regions);
     });
+  }
+
+  /// Calls visit(look, frame) for the frames in memory up to `reach` before and after one, without itself.
+  template <class Visit>
+  void for_each_near(std::size_t i, std::size_t reach, Visit visit) const {
+    const std::size_t first = std::max(begin_, i - std::min(i, reach)),
+                      end = std::min(begin_ + looks_.size(), i + reach + 1);
+    for (std::size_t k = first; k < end; ++k)
+      if (k != i && looks_[k - begin_].has_pose && views_.apart_s(i, k) <= kWitnessPause_s)
+        visit(looks_[k - begin_], k);
   }
 
   cv::Mat confirmed(std::size_t i) const {
     const Look& here = looks_[i - begin_];
     if (parameters_.min_witnesses == 0 || cv::countNonZero(here.regions) == 0) return here.regions;
     cv::Mat votes(here.regions.size(), CV_8UC1, cv::Scalar(0));
-    for (std::size_t k = i - std::min(i, kWitnesses); k <= i + kWitnesses && k - begin_ < looks_.size();
-         ++k) {
-      if (k == i || k < begin_) continue;
-      const Look& there = looks_[k - begin_];
-      if (!there.has_pose || !near_in_time(i, k, kWitnessPause_s)) continue;
-      const double apart_s = std::abs(stamps_[i].stamp_s - stamps_[k].stamp_s);
+    for_each_near(i, kWitnesses, [&](const Look& there, std::size_t k) {
       votes += confirmed_by(here.regions, here.view, there.regions, there.view, sequence_.camera(), rays_,
-                            static_cast<int>(kFastest_px_s * apart_s)) &
+                            static_cast<int>(kFastest_px_s * views_.apart_s(i, k))) &
                1;
-    }
+    });
     return votes >= parameters_.min_witnesses;
+  }
+
+  void confirm_until(std::size_t end) {
+    tbb::parallel_for(confirmed_, std::max(confirmed_, end),
+                      [&](std::size_t i) { looks_[i - begin_].confirmed = confirmed(i); });
+    confirmed_ = std::max(confirmed_, end);
+  }
+
+  /// With what the frames around show in the same place, but for what is always there.
+  cv::Mat with_margin(std::size_t i) const {
+    const Look& here = looks_[i - begin_];
+    if (!here.has_pose) return here.confirmed;
+    cv::Mat carried(here.regions.size(), CV_8UC1, cv::Scalar(0));
+    for_each_near(i, parameters_.margin, [&](const Look& there, std::size_t) {
+      carried |= carried_from(there.confirmed, there.view, here.view, sequence_.camera(), rays_);
+    });
+    return here.confirmed | without_speckle(carried & (here.lasting == 0));
   }
 
   /// What was decided before, for those who look at these masks.
@@ -173,11 +174,11 @@ class Search {
     tbb::parallel_for(begin, std::max(begin, end), [&](std::size_t i) {
       const View& view = looks_[i - begin_].view;
       cv::Mat mask = view.dynamic.clone();
-      cv::Mat full = outlined(confirmed(i), view.depth, sequence_.camera().depth_scale, kOutline_px);
+      cv::Mat full = outlined(with_margin(i), view.depth, sequence_.camera().depth_scale, kOutline_px);
       full &= mask == kStatic;
       mask.setTo(kNonPriorDynamic, full);
       added[i - begin] = static_cast<std::uint64_t>(cv::countNonZero(full));
-      writer_.write(stamps_[i].stamp, mask, interactions_of(stamps_[i].stamp));
+      writer_.write(views_.stamp(i), mask, interactions_of(views_.stamp(i)));
       on_frame_();
     });
     for (const std::uint64_t pixels : added) {
@@ -185,7 +186,7 @@ class Search {
       counts_.frames_with_movers += pixels > 0;
     }
     finished_ = std::max(begin, end);
-    while (begin_ + kWitnesses < finished_) {
+    while (begin_ + std::max(kWitnesses, parameters_.margin) < finished_) {
       looks_.pop_front();
       ++begin_;
     }
@@ -198,11 +199,10 @@ class Search {
   DynamicMasksWriter& writer_;
   const std::function<void()>& on_frame_;
   std::vector<Ray> rays_;
-  std::vector<FrameStamp> stamps_;
-  FramePoses poses_;
+  SequenceViews views_;
   std::map<std::size_t, Reference> references_;  ///< by frame; empty while not needed
   std::deque<Look> looks_;                       ///< frames begin_ and on
-  std::size_t begin_ = 0, finished_ = 0;
+  std::size_t begin_ = 0, confirmed_ = 0, finished_ = 0;
   Counts counts_;
 };
 

@@ -12,9 +12,10 @@ namespace sediment::movers {
 struct Parameters {
   ContradictionParameters contradiction;
   RegionParameters regions;
-  double reach_s = 3;     ///< views at most this far in time are compared
-  int views = 24;         ///< references within that time, on both sides together
-  int min_witnesses = 2;  ///< of the two frames before and the two after, that show a region too; 0: none
+  double reach_s = 3;      ///< views at most this far in time are compared
+  int views = 24;          ///< references within that time, on both sides together
+  int min_witnesses = 2;   ///< of the two frames before and the two after, that show a region too; 0: none
+  std::size_t margin = 3;  ///< frames before and after in which what has been found is masked where it is
 };
 
 struct Counts {

@@ -35,6 +35,8 @@ int main(int argc, char** argv) {
   stage.tunes("min_area", parameters.regions.min_area, "of the image; smaller regions are speckle", {0, 1});
   stage.tunes("min_witnesses", parameters.min_witnesses,
               "of the two frames before and the two after, that must show a region too", {0, 4});
+  stage.tunes("margin", parameters.margin, "frames by which what is found is masked longer, before and after",
+              {0, 100});
   return stage.run(argc, argv, [&](contract::Work& work) {
     const Sequence sequence = Sequence::open(work.in("sequence"));
     const DynamicMasksReader dynamic(work.in("dynamic"));

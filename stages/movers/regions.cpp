@@ -8,11 +8,6 @@
 namespace sediment::movers {
 namespace {
 
-/// Of the grid's morphology.
-cv::Mat ball() {
-  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3});
-}
-
 /// Seeds and what may join them.
 struct Marks {
   cv::Mat seeds, open;
@@ -51,7 +46,7 @@ void grow(cv::Mat& regions, const cv::Mat& open, const cv::Mat& depth, double de
       const cv::Point to = from + way;
       if (!image.contains(to) || regions.at<std::uint8_t>(to) || !open.at<std::uint8_t>(to)) continue;
       const double z = depth_at(from);
-      if (std::abs(depth_at(to) - z) > 0.02 + 0.02 * z) continue;
+      if (!goes_on(z, depth_at(to))) continue;
       regions.at<std::uint8_t>(to) = 255;
       front.push_back(to);
     }
@@ -71,17 +66,26 @@ void add_rest(cv::Mat& regions, const Verdicts& verdicts, const View& view, doub
   cv::Mat rest = known.clone();
   grow(rest, open, view.depth, depth_scale);
   rest &= known == 0;
-  cv::morphologyEx(rest, rest, cv::MORPH_OPEN, ball());
-  regions |= rest;
+  regions |= without_speckle(rest);
+}
+
+/// Of the grid's morphology.
+cv::Mat ball() {
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3});
 }
 
 }  // namespace
 
+cv::Mat without_speckle(const cv::Mat& regions) {
+  cv::Mat wide;
+  cv::morphologyEx(regions, wide, cv::MORPH_OPEN, ball());
+  return wide;
+}
+
 cv::Mat regions_of(const Verdicts& verdicts, const View& view, double depth_scale,
                    const RegionParameters& parameters) {
   const Marks marks = marks_of(verdicts, parameters);
-  cv::Mat regions;
-  cv::morphologyEx(marks.seeds, regions, cv::MORPH_OPEN, ball());
+  cv::Mat regions = without_speckle(marks.seeds);
   grow(regions, marks.open, view.depth, depth_scale);
   add_rest(regions, verdicts, view, depth_scale, parameters.min_views);
   cv::morphologyEx(regions, regions, cv::MORPH_CLOSE, ball(), {-1, -1}, 2);
@@ -115,43 +119,6 @@ cv::Mat outlined(const cv::Mat& regions, const cv::Mat& depth, double depth_scal
         mask.at<std::uint8_t>(y, x) = 255;
     }
   return mask;
-}
-
-cv::Mat confirmed_by(const cv::Mat& regions, const View& view, const cv::Mat& regions_there,
-                     const View& there, const Camera& camera, const std::vector<Ray>& rays, int reach_px) {
-  cv::Mat near, labels;
-  const int reach = std::max(1, reach_px / kStep_px), side = 2 * reach + 1;
-  cv::Mat known;
-  cv::resize(there.dynamic, known, regions.size(), 0, 0, cv::INTER_NEAREST);
-  known = (known != 0) | regions_there;
-  cv::dilate(known, near, cv::Mat::ones(side, side, CV_8UC1));
-  const int count = cv::connectedComponents(regions, labels, 8);
-  std::vector<int> all(static_cast<std::size_t>(count)), shown(all.size());
-  const Pose there_from_here = there.world_from_camera.inverse() * view.world_from_camera;
-  for (int y = 0; y < regions.rows; ++y)
-    for (int x = 0; x < regions.cols; ++x) {
-      const auto label = static_cast<std::size_t>(labels.at<int>(y, x));
-      const int u = x * kStep_px + kStep_px / 2, v = y * kStep_px + kStep_px / 2;
-      const double z = view.depth.at<std::uint16_t>(v, u) / camera.depth_scale;
-      if (label == 0 || z <= 0) continue;
-      const Ray& ray = rays[static_cast<std::size_t>(v) * camera.width + u];
-      const Vec3 point = there_from_here * Vec3{ray.x * z, ray.y * z, z};
-      if (point.z <= 0) continue;
-      const Pixel at = camera.project(point);
-      const cv::Point cell(static_cast<int>(std::floor(at.u / kStep_px)),
-                           static_cast<int>(std::floor(at.v / kStep_px)));
-      if (!cv::Rect({}, near.size()).contains(cell)) continue;
-      ++all[label];
-      shown[label] += near.at<std::uint8_t>(cell) ? 1 : 0;
-    }
-  cv::Mat confirmed(regions.size(), CV_8UC1, cv::Scalar(0));
-  for (int y = 0; y < regions.rows; ++y)
-    for (int x = 0; x < regions.cols; ++x) {
-      const auto label = static_cast<std::size_t>(labels.at<int>(y, x));
-      if (label > 0 && all[label] > 0 && 2 * shown[label] >= all[label])
-        confirmed.at<std::uint8_t>(y, x) = 255;
-    }
-  return confirmed;
 }
 
 }  // namespace sediment::movers

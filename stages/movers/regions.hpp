@@ -19,14 +19,16 @@ struct RegionParameters {
 cv::Mat regions_of(const Verdicts& verdicts, const View& view, double depth_scale,
                    const RegionParameters& parameters);
 
+/// Without what is narrower than six pixels of the image.
+cv::Mat without_speckle(const cv::Mat& regions);
+
 /// A mask of the image (255) from regions of the grid: the pixels of its cells, and those within `reach_px`
 /// that go on at their depth. The grid leaves outlines open, as depths are not trusted there.
 cv::Mat outlined(const cv::Mat& regions, const cv::Mat& depth, double depth_scale, int reach_px);
 
-/// Those regions of a view of which another view shows at least half, moved by no more than `reach_px`: a
-/// region of `there` (or what is masked there) lies near where each pixel would be if it stood still.
-/// Returns a label image's kept regions as a mask: 255 where the region is confirmed.
-cv::Mat confirmed_by(const cv::Mat& regions, const View& view, const cv::Mat& regions_there,
-                     const View& there, const Camera& camera, const std::vector<Ray>& rays, int reach_px);
+/// Whether a surface may go on from one depth to another beside it.
+inline bool goes_on(double from_m, double to_m) {
+  return std::abs(to_m - from_m) <= 0.02 + 0.02 * from_m;
+}
 
 }  // namespace sediment::movers

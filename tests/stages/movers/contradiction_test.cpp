@@ -59,6 +59,21 @@ TEST_CASE("what is seen both before and after is lasting, what is seen on one si
   CHECK_FALSE(lasting(hidden, after));
 }
 
+TEST_CASE("one frame of many before that shows a pixel's place filled makes it no lasting one") {
+  View view = wall_at(1.5), shows = wall_at(1.5), after = wall_at(1.5);
+  view.stamp_s = 1, after.stamp_s = 2;
+  View through = wall_at(3);
+  const auto lasting = [&](int frames_through) {
+    std::vector<Reference> references{reference_of(shows, kCamera, {}), reference_of(after, kCamera, {})};
+    for (int i = 0; i < frames_through; ++i) references.push_back(reference_of(through, kCamera, {}));
+    std::vector<const Reference*> all;
+    for (const Reference& reference : references) all.push_back(&reference);
+    return verdicts_of(view, all, kCamera, rays_of(kCamera), {}).lasting.at<std::uint8_t>(kCell) == 255;
+  };
+  CHECK(lasting(1));
+  CHECK_FALSE(lasting(2));  // a third sees it: a thing that glides is where it was, too
+}
+
 TEST_CASE("a frame sees beyond a pixel if what it shows there lies behind, though not all around does") {
   View view = wall_at(1.5), other = wall_at(3);
   other.depth.at<std::uint16_t>(25, 35) = 0;

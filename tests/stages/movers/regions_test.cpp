@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "pipeline/scene/frame.hpp"
+#include "stages/movers/other_view.hpp"
 
 using namespace sediment;
 using namespace sediment::movers;
@@ -113,4 +114,22 @@ TEST_CASE("another frame confirms a region that it shows nearby or has masked, a
   CHECK(confirmed() == 0);
   other.dynamic(cv::Rect(kThing.tl() * kStep_px, kThing.size() * kStep_px)) = kPriorDynamic;
   CHECK(confirmed() == kThing.area());
+}
+
+TEST_CASE("a frame carries its regions to where the other shows the same surface in the same place") {
+  cv::Mat there(60, 80, CV_8UC1, cv::Scalar(0));
+  there(kThing) = 255;
+  const View other = view_with(kThing, 1.5);
+  View view = other;
+  const auto carried = [&] {
+    return cv::countNonZero(carried_from(there, other, view, kSmallCamera, rays_of(kSmallCamera)));
+  };
+  CHECK(carried() == kThing.area());
+  view = view_with(kThing + cv::Point(5, 0), 1.5);  // it has moved by a quarter of its width
+  CHECK(carried() == 0.75 * kThing.area());
+  view = view_with(kThing, 1.7);
+  CHECK(carried() == 0);
+  view = other;
+  there = 0;
+  CHECK(carried() == 0);
 }
