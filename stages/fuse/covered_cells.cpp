@@ -1,6 +1,5 @@
 #include "stages/fuse/covered_cells.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace sediment::fuse {
@@ -12,24 +11,36 @@ CoveredCells::Cell CoveredCells::cell_of(const LabelledPoint& point) const {
   return {index(point.x), index(point.y), index(point.z)};
 }
 
-/// 21 bits an axis: a scene is smaller than two million cells, and beyond them cells only share a key.
-std::uint64_t CoveredCells::key_of(const Cell& cell) {
+/// 21 bits an axis: a scene is smaller than eight million cells, and beyond them blocks only share a key.
+std::uint64_t CoveredCells::block_of(const Cell& cell) {
   constexpr std::uint64_t kMask = (std::uint64_t{1} << 21) - 1;
-  return (static_cast<std::uint64_t>(cell.x) & kMask) | (static_cast<std::uint64_t>(cell.y) & kMask) << 21 |
-         (static_cast<std::uint64_t>(cell.z) & kMask) << 42;
+  const auto part = [](std::int64_t index) { return static_cast<std::uint64_t>(index >> 2) & kMask; };
+  return part(cell.x) | part(cell.y) << 21 | part(cell.z) << 42;
+}
+
+std::uint64_t CoveredCells::bit_of(const Cell& cell) {
+  return std::uint64_t{1} << ((cell.x & 3) | (cell.y & 3) << 2 | (cell.z & 3) << 4);
 }
 
 bool CoveredCells::is_near(const Cell& cell) const {
-  if (cells_.contains(key_of(cell))) return true;
+  const auto block = blocks_.find(block_of(cell));
+  return block != blocks_.end() && (block->second.near & bit_of(cell));
+}
+
+void CoveredCells::fill(const Cell& cell) {
+  Block& block = blocks_[block_of(cell)];
+  if (block.filled & bit_of(cell)) return;
+  block.filled |= bit_of(cell);
   for (int z = -1; z <= 1; ++z)
     for (int y = -1; y <= 1; ++y)
-      for (int x = -1; x <= 1; ++x)
-        if (cells_.contains(key_of({cell.x + x, cell.y + y, cell.z + z}))) return true;
-  return false;
+      for (int x = -1; x <= 1; ++x) {
+        const Cell beside{cell.x + x, cell.y + y, cell.z + z};
+        blocks_[block_of(beside)].near |= bit_of(beside);
+      }
 }
 
 void CoveredCells::add(const LabelledCloud& points) {
-  for (const LabelledPoint& point : points) cells_.insert(key_of(cell_of(point)));
+  for (const LabelledPoint& point : points) fill(cell_of(point));
 }
 
 void CoveredCells::keep_new(LabelledCloud& points) {

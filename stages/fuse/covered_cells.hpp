@@ -1,13 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_set>
+#include <unordered_map>
 
 #include "pipeline/scene/labelled_point.hpp"
 
 namespace sediment::fuse {
 
-/// Which cubes of space have a point of the map already. Memory grows with the scene, not with the sequence.
+/// Which cubes of space have a point of the map already, or are beside one that has. Memory grows with the
+/// scene, not with the sequence.
 class CoveredCells {
  public:
   explicit CoveredCells(double side_m) : cells_per_metre_(1 / side_m) {}
@@ -22,12 +23,18 @@ class CoveredCells {
   struct Cell {
     std::int64_t x, y, z;
   };
+  /// 4 x 4 x 4 cells, a bit each.
+  struct Block {
+    std::uint64_t filled = 0, near = 0;
+  };
   Cell cell_of(const LabelledPoint& point) const;
-  static std::uint64_t key_of(const Cell& cell);
+  static std::uint64_t block_of(const Cell& cell);
+  static std::uint64_t bit_of(const Cell& cell);
   bool is_near(const Cell& cell) const;
+  void fill(const Cell& cell);
 
   double cells_per_metre_;
-  std::unordered_set<std::uint64_t> cells_;
+  std::unordered_map<std::uint64_t, Block> blocks_;
 };
 
 }  // namespace sediment::fuse

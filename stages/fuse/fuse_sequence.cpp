@@ -91,6 +91,9 @@ FuseResult fuse_sequence(const Sequence& sequence, const Sources& sources, const
   std::size_t selected = 0;
   const Selection selection = selection_of(sequence, sources.trajectory, parameters, selected);
   const FrameSource source(sequence, sources, labels, parameters.projection);
+  Projection filling = parameters.projection;
+  filling.pixel_step = parameters.fill_step;
+  const FrameSource filling_source(sequence, sources, labels, filling);
   CloudWriter writer(out, parameters.encoding);
   FuseResult result;
   result.frames_fused = selected;
@@ -105,8 +108,9 @@ FuseResult fuse_sequence(const Sequence& sequence, const Sources& sources, const
         if (next == selection.frames.size()) flow.stop();
         return next++;
       });
-  const auto project = tbb::make_filter<std::size_t, Piece>(
-      tbb::filter_mode::parallel, [&](std::size_t i) { return source(selection.frames[i]); });
+  const auto project = tbb::make_filter<std::size_t, Piece>(tbb::filter_mode::parallel, [&](std::size_t i) {
+    return i < selected ? source(selection.frames[i]) : filling_source(selection.frames[i]);
+  });
   const auto append = tbb::make_filter<Piece, void>(tbb::filter_mode::serial_in_order, [&](Piece piece) {
     if (appended++ >= selected) {
       covered.keep_new(piece.points);

@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
       "frames that are not selected add points that no earlier one is near, by cells of this side; 0: "
       "none",
       {0, 10});
+  stage.tunes("fill_step", parameters.fill_step, "pixel_step of these frames", {1, 1000});
   stage.tunes("min_depth_m", projection.min_depth_m, "nearer pixels are left out", {0, 1000});
   stage.tunes("max_depth_m", projection.max_depth_m, "farther pixels are left out", {0, 1000});
   stage.tunes("pixel_step", projection.pixel_step, "every n-th pixel of every n-th row", {1, 1000});

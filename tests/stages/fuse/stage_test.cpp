@@ -91,8 +91,8 @@ TEST_CASE("the stage fuse writes equal bytes with 1 and with 4 threads in every 
 TEST_CASE("frames that are no keyframes fill only what no keyframe saw, the same at any thread count") {
   const Scene scene;
   REQUIRE(scene.run("--out " + scene.path("plain")).code == 0);
-  REQUIRE(scene.run("--fill-m 0.01 --threads 1 --out " + scene.path("one")).code == 0);
-  REQUIRE(scene.run("--fill-m 0.01 --threads 4 --out " + scene.path("four")).code == 0);
+  REQUIRE(scene.run("--fill-m 0.01 --fill-step 2 --threads 1 --out " + scene.path("one")).code == 0);
+  REQUIRE(scene.run("--fill-m 0.01 --fill-step 2 --threads 4 --out " + scene.path("four")).code == 0);
   CHECK(contract::read_manifest(scene.folder / "one").id() ==
         contract::read_manifest(scene.folder / "four").id());
   const LabelledCloud plain = read_cloud(scene.folder / "plain"), filled = read_cloud(scene.folder / "one");
@@ -105,6 +105,17 @@ TEST_CASE("frames that are no keyframes fill only what no keyframe saw, the same
   // adds one.
   for (std::size_t i = plain.size(); i < filled.size(); ++i)
     for (const LabelledPoint& p : plain) REQUIRE(std::hypot(p.x - filled[i].x, p.y - filled[i].y) > 0.01);
+}
+
+TEST_CASE("frames that fill are asked for every pixel unless told otherwise") {
+  const Scene scene;
+  const auto visited = [&](const std::string& flags, const std::string& out) {
+    REQUIRE(scene.run("--fill-m 0.01 " + flags + " --out " + scene.path(out)).code == 0);
+    return contract::Json::parse(std::ifstream(scene.folder / (out + "/metrics.json")))["pixels_visited"]
+        .get<int>();
+  };
+  CHECK(visited("--fill-step 2", "coarse") == kFrames * 32 * 24);
+  CHECK(visited("", "fine") == 3 * 32 * 24 + (kFrames - 3) * 64 * 48);
 }
 
 TEST_CASE("the stage fuse runs without masks: everything is static and unlabelled") {
