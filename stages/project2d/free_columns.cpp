@@ -53,12 +53,14 @@ double FreeColumns::free_share(double x_m, double y_m, double low_m, double high
   return static_cast<double>(free) / samples;
 }
 
-std::function<FreeShare(const Pose& map_from_world)> free_shares(const octomap::ColorOcTree* tree,
-                                                                 double low_m, double high_m) {
+std::function<FreeByRays(const Pose& map_from_world)> free_by_rays(const octomap::ColorOcTree* tree,
+                                                                   const GridParameters& parameters) {
   if (tree == nullptr) return {};
   return [=](const Pose& map_from_world) {
     return [=, columns = FreeColumns(*tree, map_from_world)](double x_m, double y_m) {
-      return columns.free_share(x_m, y_m, low_m, high_m);
+      const double low_m = parameters.min_height, foot_m = parameters.free_foot_m;
+      return (foot_m > 0 && columns.free_share(x_m, y_m, low_m, low_m + foot_m) == 1) ||
+             columns.free_share(x_m, y_m, low_m, parameters.max_height) >= parameters.min_free_share;
     };
   };
 }

@@ -30,9 +30,9 @@ class FreeColumns {
   Pose world_from_map_;
 };
 
-/// Share of the heights from `low_m` to `high_m` that the tree knows to be free, for project(). Nothing
-/// without a tree, which must live as long as what is returned.
-std::function<FreeShare(const Pose& map_from_world)> free_shares(const octomap::ColorOcTree* tree,
-                                                                 double low_m, double high_m);
+/// For project(): whether the tree knows enough of the band to be free, by `min_free_share` or
+/// `free_foot_m`. Nothing without a tree, which must live as long as what is returned.
+std::function<FreeByRays(const Pose& map_from_world)> free_by_rays(const octomap::ColorOcTree* tree,
+                                                                   const GridParameters& parameters);
 
 }  // namespace sediment::project2d

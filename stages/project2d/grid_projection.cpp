@@ -105,14 +105,13 @@ CellCounts count_points(const std::vector<Vec3>& points, const GridMap& map, con
 }
 
 void mark_cells(GridMap& map, const CellCounts& counts, const GridParameters& parameters,
-                const FreeShare& free_share) {
+                const FreeByRays& free_by_rays) {
   tbb::parallel_for(0, map.height, [&](int y) {
     for (int x = 0; x < map.width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * map.width + x;
       const auto is_free_by_rays = [&] {
-        return free_share &&
-               free_share(map.origin_x_m + (x + 0.5) * map.resolution_m,
-                          map.origin_y_m + (y + 0.5) * map.resolution_m) >= parameters.min_free_share;
+        return free_by_rays && free_by_rays(map.origin_x_m + (x + 0.5) * map.resolution_m,
+                                            map.origin_y_m + (y + 0.5) * map.resolution_m);
       };
       if (counts.in_band[i] >= parameters.min_points)
         map.cells[i] = Cell::occupied;
@@ -127,7 +126,7 @@ void mark_cells(GridMap& map, const CellCounts& counts, const GridParameters& pa
 
 GridMap project(const LabelledCloud& cloud, const Plane& ground, const GridParameters& parameters,
                 GridStatistics& statistics,
-                const std::function<FreeShare(const Pose& map_from_world)>& free_share_in) {
+                const std::function<FreeByRays(const Pose& map_from_world)>& free_by_rays_in) {
   const Pose to_map = map_from_world(ground);
   const std::vector<Vec3> points = points_in_map(cloud, to_map, parameters.max_height, statistics);
   if (points.empty())
@@ -139,9 +138,10 @@ GridMap project(const LabelledCloud& cloud, const Plane& ground, const GridParam
 
   const CellCounts counts = count_points(points, map, range, parameters, statistics);
   mark_cells(map, counts, parameters,
-             parameters.empty_cells == EmptyCells::rays ? free_share_in(to_map) : FreeShare{});
+             parameters.empty_cells == EmptyCells::rays ? free_by_rays_in(to_map) : FreeByRays{});
   statistics.speckle = remove_speckle(map, counts.in_band, parameters.speckle_points);
   statistics.filled = fill_holes(map, parameters.max_hole_cells);
+  if (parameters.close_notches) statistics.filled += close_notches(map);
   for (const Cell cell : map.cells) {
     statistics.occupied += cell == Cell::occupied ? 1 : 0;
     statistics.free += cell == Cell::free ? 1 : 0;

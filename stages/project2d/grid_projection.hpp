@@ -13,8 +13,8 @@ namespace sediment::project2d {
 /// point of the ground there, else unknown. `rays`: free also if rays found enough of the band free.
 enum class EmptyCells { binary, seen, rays };
 
-/// Share of the band's heights above a place of the map, metres, that rays found free.
-using FreeShare = std::function<double(double x_m, double y_m)>;
+/// Whether rays found a place of the map, metres, free.
+using FreeByRays = std::function<bool(double x_m, double y_m)>;
 
 struct GridParameters {
   double resolution = 0.05;  ///< metres
@@ -24,8 +24,10 @@ struct GridParameters {
   double margin = 0.25;      ///< metres around the cloud
   EmptyCells empty_cells = EmptyCells::binary;
   double min_free_share = 0.5;  ///< of the band, for a cell to be free by rays
+  double free_foot_m = 0;       ///< or so much of the band's lower end, all of it; 0: only the share counts
   int speckle_points = 0;       ///< lone cells with fewer points in the band are no obstacles; 0: none
   int max_hole_cells = 0;       ///< unknown cells amid free ones that become free; 0: none
+  bool close_notches = false;   ///< unknown cells between free ones, in gaps of one or two, become free
 };
 
 struct GridStatistics {
@@ -36,11 +38,11 @@ struct GridStatistics {
 
 /// Passes the points between min_height and max_height above the ground and marks the cells they stand on.
 /// The grid covers the whole cloud up to max_height, whole multiples of the resolution. Throws
-/// std::runtime_error if there is no such point or the grid would have more than 2^28 cells. `free_share_in`
-/// makes the function that EmptyCells::rays asks, given the transform of the map; it is called from several
-/// threads.
+/// std::runtime_error if there is no such point or the grid would have more than 2^28 cells.
+/// `free_by_rays_in` makes the function that EmptyCells::rays asks, given the transform of the map; it is
+/// called from several threads.
 GridMap project(const LabelledCloud& cloud, const Plane& ground, const GridParameters& parameters,
                 GridStatistics& statistics,
-                const std::function<FreeShare(const Pose& map_from_world)>& free_share_in = {});
+                const std::function<FreeByRays(const Pose& map_from_world)>& free_by_rays_in = {});
 
 }  // namespace sediment::project2d

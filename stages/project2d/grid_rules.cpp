@@ -7,10 +7,19 @@
 namespace sediment::project2d {
 namespace {
 
-bool stands_alone(const GridMap& map, int x, int y) {
+/// Whether one of the 8 cells around is of a kind.
+bool has_near(const GridMap& map, int x, int y, Cell kind) {
   for (int ny = std::max(0, y - 1); ny <= std::min(map.height - 1, y + 1); ++ny)
     for (int nx = std::max(0, x - 1); nx <= std::min(map.width - 1, x + 1); ++nx)
-      if ((nx != x || ny != y) && map.at(nx, ny) == Cell::occupied) return false;
+      if ((nx != x || ny != y) && map.at(nx, ny) == kind) return true;
+  return false;
+}
+
+/// Whether each of the nine squares of 3 x 3 cells that hold an unknown cell has a free one.
+bool is_notch(const GridMap& map, int x, int y) {
+  for (int ny = y - 1; ny <= y + 1; ++ny)
+    for (int nx = x - 1; nx <= x + 1; ++nx)
+      if (map.at(nx, ny) != Cell::free && !has_near(map, nx, ny, Cell::free)) return false;
   return true;
 }
 
@@ -49,7 +58,7 @@ std::size_t remove_speckle(GridMap& map, std::span<const std::int32_t> in_band, 
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * map.width + x;
-      if (map.cells[i] == Cell::occupied && in_band[i] < least_points && stands_alone(map, x, y))
+      if (map.cells[i] == Cell::occupied && in_band[i] < least_points && !has_near(map, x, y, Cell::occupied))
         speckle.push_back(i);
     }
   for (const std::size_t i : speckle) map.cells[i] = Cell::unknown;
@@ -68,6 +77,16 @@ std::size_t fill_holes(GridMap& map, int most_cells) {
     filled += hole.cells.size();
   }
   return filled;
+}
+
+std::size_t close_notches(GridMap& map) {
+  std::vector<std::size_t> notches;
+  for (int y = 1; y + 1 < map.height; ++y)
+    for (int x = 1; x + 1 < map.width; ++x)
+      if (map.at(x, y) == Cell::unknown && !has_near(map, x, y, Cell::occupied) && is_notch(map, x, y))
+        notches.push_back(static_cast<std::size_t>(y) * map.width + x);
+  for (const std::size_t i : notches) map.cells[i] = Cell::free;
+  return notches.size();
 }
 
 }  // namespace sediment::project2d

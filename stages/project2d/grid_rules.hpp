@@ -18,4 +18,9 @@ std::size_t remove_speckle(GridMap& map, std::span<const std::int32_t> in_band, 
 /// seen from no side. Returns how many cells. 0 changes nothing.
 std::size_t fill_holes(GridMap& map, int most_cells);
 
+/// Unknown cells become free where no 3 x 3 cells without a free one hold them (the closing of what is free),
+/// unless one of their 8 neighbours is occupied: gaps of one or two cells, and the teeth of a border that
+/// runs aslant. Cells at the border of the map stay. Returns how many cells.
+std::size_t close_notches(GridMap& map);
+
 }  // namespace sediment::project2d

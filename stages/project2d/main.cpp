@@ -98,17 +98,21 @@ int main(int argc, char** argv) {
               {{"binary", EmptyCells::binary}, {"seen", EmptyCells::seen}, {"rays", EmptyCells::rays}});
   stage.tunes("min_free_share", grid.min_free_share,
               "share of the band that rays must have found free, for a cell to be free", {0, 1});
+  stage.tunes("free_foot_m", grid.free_foot_m,
+              "metres at the foot of the band: a cell is free too where rays found all of them free; 0: none",
+              {0, 100});
   stage.tunes("speckle_points", grid.speckle_points,
               "a lone occupied cell with fewer points becomes unknown; 0: none", {0, 1000000});
   stage.tunes("max_hole_cells", grid.max_hole_cells,
               "at most so many unknown cells amid free ones become free; 0: none", {0, 1000000});
+  stage.tunes("close_notches", grid.close_notches,
+              "unknown cells in gaps of one or two between free ones become free, but not beside obstacles");
   return stage.run(argc, argv, [&](Work& work) {
     if (!(grid.min_height < grid.max_height)) throw UsageError("min_height must be below max_height");
     const MapInput input = input_of(work, grid);
     const Ground ground = ground_of(work, input.cloud, parameters);
     GridStatistics statistics;
-    GridMap map = project(input.cloud, ground.plane, grid, statistics,
-                          free_shares(input.tree.get(), grid.min_height, grid.max_height));
+    GridMap map = project(input.cloud, ground.plane, grid, statistics, free_by_rays(input.tree.get(), grid));
     map.ground_source = ground.source;
     write_grid_map(work.out(), map);
     if (work.has("costs"))

@@ -54,7 +54,7 @@ TEST_CASE("with rays, air over ground that the cloud does not have is free, and 
   GridParameters parameters{.resolution = 0.1, .min_height = 0.1, .max_height = 0.9, .margin = 2.5};
   GridStatistics statistics;
   parameters.empty_cells = EmptyCells::rays;
-  const GridMap map = project(cells, Plane{}, parameters, statistics, free_shares(tree.get(), 0.1, 0.9));
+  const GridMap map = project(cells, Plane{}, parameters, statistics, free_by_rays(tree.get(), parameters));
   const auto cell = [&](double x_m, double y_m) {
     return map.at(static_cast<int>(std::floor((x_m - map.origin_x_m) / map.resolution_m)),
                   static_cast<int>(std::floor((y_m - map.origin_y_m) / map.resolution_m)));
@@ -65,6 +65,19 @@ TEST_CASE("with rays, air over ground that the cloud does not have is free, and 
   CHECK(cell(0.55, 1.55) == Cell::unknown);
   CHECK(statistics.free == 18 * 10);
   CHECK(statistics.occupied == 2 * 10);
+}
+
+TEST_CASE("air at the foot of the band is enough if asked for, air above it is not") {
+  const auto tree = room();  // free up to 1 m
+  GridParameters parameters{.min_height = 0.1, .max_height = 2.9};
+  const auto is_free = [&](double from_m, double foot_m) {
+    parameters.min_height = from_m;
+    parameters.free_foot_m = foot_m;
+    return free_by_rays(tree.get(), parameters)(Pose{})(0.55, 0.55);
+  };
+  CHECK_FALSE(is_free(0.1, 0));  // a third of the band
+  CHECK(is_free(0.1, 0.3));
+  CHECK_FALSE(is_free(0.9, 0.3));
 }
 
 TEST_CASE("an octree without an occupied leaf is refused by name") {

@@ -51,6 +51,31 @@ TEST_CASE("holes of few unknown cells amid free ones become free, others stay") 
   CHECK(fill_holes(larger, 1) == 0);
 }
 
+TEST_CASE("gaps of two cells between free ones close, but not beside obstacles, and wide ones not at all") {
+  GridMap map = drawn({"............",  //
+                       "............",  //
+                       "..??..???...",  //
+                       "..??..???...",  //
+                       "..??..???...",  //
+                       "............",  //
+                       "...?#.......",  //
+                       "............"});
+  CHECK(close_notches(map) == 6);
+  CHECK(picture(map) == std::vector<std::string>{"............",  //
+                                                 "............",  //
+                                                 "......???...",  //
+                                                 "......???...",  //
+                                                 "......???...",  //
+                                                 "............",  //
+                                                 "...?#.......",  //
+                                                 "............"});
+  GridMap border = drawn({"???????",  //
+                          "..?..??",  //
+                          "......."});
+  CHECK(close_notches(border) == 1);
+  CHECK(picture(border) == std::vector<std::string>{"???????", ".....??", "......."});
+}
+
 TEST_CASE("a lone occupied cell of few points becomes unknown, a chair leg of many and a thin wall stay") {
   GridMap map = drawn({"#....",  //
                        "...#.",  //
