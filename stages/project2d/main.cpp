@@ -84,8 +84,7 @@ int main(int argc, char** argv) {
               {0.01, 10000});
   stage.tunes("max_below_floor", parameters.search.max_below, "share of the cloud that may lie below a floor",
               {0, 1});
-  stage.tunes("require_floor", parameters.search.require_floor,
-              "fail if only a desk or the like is seen, no floor");
+  stage.tunes("require_floor", parameters.search.require_floor, "fail if a desk is seen, no floor");
   stage.tunes("resolution", grid.resolution, "side of a cell, metres", {0.001, 100});
   stage.tunes("min_height", grid.min_height, "metres above the ground where obstacles begin", {0, 100});
   stage.tunes("max_height", grid.max_height,
@@ -98,15 +97,12 @@ int main(int argc, char** argv) {
               {{"binary", EmptyCells::binary}, {"seen", EmptyCells::seen}, {"rays", EmptyCells::rays}});
   stage.tunes("min_free_share", grid.min_free_share,
               "share of the band that rays must have found free, for a cell to be free", {0, 1});
-  stage.tunes("free_foot_m", grid.free_foot_m,
-              "metres at the foot of the band: a cell is free too where rays found all of them free; 0: none",
-              {0, 100});
+  stage.tunes("free_foot_m", grid.free_foot_m, "or all of the band's lowest metres; 0: none", {0, 100});
   stage.tunes("speckle_points", grid.speckle_points,
               "a lone occupied cell with fewer points becomes unknown; 0: none", {0, 1000000});
   stage.tunes("max_hole_cells", grid.max_hole_cells,
               "at most so many unknown cells amid free ones become free; 0: none", {0, 1000000});
-  stage.tunes("close_notches", grid.close_notches,
-              "unknown cells in gaps of one or two between free ones become free, but not beside obstacles");
+  stage.tunes("close_notches", grid.close_notches, "unknown cells in gaps of one or two become free");
   return stage.run(argc, argv, [&](Work& work) {
     if (!(grid.min_height < grid.max_height)) throw UsageError("min_height must be below max_height");
     const MapInput input = input_of(work, grid);
