@@ -46,8 +46,8 @@ Pixel Camera::undistort(Pixel pixel) const {
 }
 
 Pixel Camera::project(Vec3 point) const {
-  const double x = point.x / point.z, y = point.y / point.z;
-  const Pixel seen = has_distortion() ? distort(distortion, x, y) : Pixel{x, y};
+  if (!has_distortion()) return project_straight(point);
+  const Pixel seen = distort(distortion, point.x / point.z, point.y / point.z);
   return {fx * seen.u + cx, fy * seen.v + cy};
 }
 

@@ -30,6 +30,10 @@ struct Camera {
   Pixel undistort(Pixel pixel) const;
   /// Image of a point of the camera frame with z > 0, lens distortion included.
   Pixel project(Vec3 point) const;
+  /// The same for a camera without distortion.
+  Pixel project_straight(Vec3 point) const {
+    return {fx * (point.x / point.z) + cx, fy * (point.y / point.z) + cy};
+  }
   /// Equation (4) of the paper with the lens undone: the point seen at `pixel` with depth `z` (along the
   /// optical axis).
   Vec3 back_project(Pixel pixel, double depth_m) const {

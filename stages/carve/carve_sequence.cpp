@@ -24,6 +24,7 @@ Carved carve_cloud(const LabelledCloud& cloud, const Sequence& sequence, const T
                    const std::optional<DynamicMasksReader>& dynamic, int every_nth,
                    const Parameters& parameters, const std::function<void()>& advance) {
   Carved carved;
+  const PointBlocks sorted = blocks_of(cloud);
   std::vector<Votes> votes(cloud.size());
   std::vector<FrameStamp> stamps;
   for (std::size_t idx = 0; idx < sequence.size(); ++idx)
@@ -34,7 +35,7 @@ Carved carve_cloud(const LabelledCloud& cloud, const Sequence& sequence, const T
     if (const auto pose = poses.pose_of(stamps[idx])) {
       DepthView view{pose->inverse(), sequence.depth(idx), {}};
       view.dynamic = dynamic_of(dynamic, entry.stamp, view.depth.size());
-      add_votes(cloud, sequence.camera(), view, parameters, votes);
+      add_votes(sorted, sequence.camera(), view, parameters, votes);
       ++carved.statistics.views;
     } else {
       ++carved.statistics.frames_without_pose;
@@ -44,14 +45,17 @@ Carved carve_cloud(const LabelledCloud& cloud, const Sequence& sequence, const T
   if (carved.statistics.views == 0)
     throw std::runtime_error(
         "no frame of the sequence has a pose in the trajectory: nothing can be seen through");
+  std::vector<std::uint32_t> place(cloud.size());
+  for (std::size_t i = 0; i < place.size(); ++i) place[sorted.order[i]] = static_cast<std::uint32_t>(i);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const bool goes = is_carved(votes[i], parameters);
+    const Votes& of = votes[place[i]];
+    const bool goes = is_carved(of, parameters);
     if (goes)
       carved.removed.push_back(cloud[i]);
     else
-      carved.kept.push_back(parameters.settle ? settled(cloud[i], votes[i], parameters) : cloud[i]);
-    carved.statistics.never_seen += votes[i].through + votes[i].hits == 0 ? 1 : 0;
-    carved.statistics.spared += !goes && votes[i].through > 0 ? 1 : 0;
+      carved.kept.push_back(parameters.settle ? settled(cloud[i], of, parameters) : cloud[i]);
+    carved.statistics.never_seen += of.through + of.hits == 0 ? 1 : 0;
+    carved.statistics.spared += !goes && of.through > 0 ? 1 : 0;
   }
   return carved;
 }

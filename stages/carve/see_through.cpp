@@ -7,18 +7,25 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "pipeline/scene/frame.hpp"
 
 namespace sediment::carve {
 namespace {
 
-/// Smallest depth of the window around each pixel, 0 if one of them has none.
-cv::Mat nearest_depths(const cv::Mat& depth, int window_px) {
+/// Smallest and largest depth of the window around each pixel; the smallest is 0 if one of them has none.
+struct WindowDepths {
+  cv::Mat nearest, farthest;
+};
+
+WindowDepths window_depths(const cv::Mat& depth, int window_px) {
   const int side = 2 * window_px + 1;
-  cv::Mat nearest;
-  cv::erode(depth, nearest, cv::Mat::ones(side, side, CV_8UC1), {-1, -1}, 1, cv::BORDER_CONSTANT, 0);
-  return nearest;
+  const cv::Mat window = cv::Mat::ones(side, side, CV_8UC1);
+  WindowDepths depths;
+  cv::erode(depth, depths.nearest, window, {-1, -1}, 1, cv::BORDER_CONSTANT, 0);
+  cv::dilate(depth, depths.farthest, window, {-1, -1}, 1, cv::BORDER_CONSTANT, 0);
+  return depths;
 }
 
 /// A view ready to be asked.
@@ -26,8 +33,9 @@ struct Look {
   const Camera& camera;
   const DepthView& view;
   const Parameters& parameters;
-  cv::Mat nearest;
+  WindowDepths around;
   Pose world_from_camera;
+  bool bent;  ///< the camera's lens distorts
 
   double tolerance_m(double depth_m) const {
     return parameters.slack_m + parameters.sigmas * parameters.noise * depth_m * depth_m;
@@ -41,38 +49,58 @@ struct Look {
     return view.dynamic.empty() ? std::uint8_t{kStatic} : view.dynamic.at<std::uint8_t>(v, u);
   }
 
+  /// Units of depth outside of which nothing agrees with `depth_m`: the roots m of |m - depth| =
+  /// tolerance(m), and one unit more, as agree() decides.
+  std::pair<int, int> units_near(double depth_m) const {
+    const double k = 4 * parameters.sigmas * parameters.noise;
+    const double near_m = std::max(0.0, depth_m - parameters.slack_m), far_m = depth_m + parameters.slack_m;
+    const double least_m = 2 * near_m / (1 + std::sqrt(1 + k * near_m));
+    const double root = std::sqrt(std::max(0.0, 1 - k * far_m));
+    double most = 2 * far_m / (1 + root) * camera.depth_scale;
+    // Beyond its other root the tolerance is larger than any depth.
+    if (2 * (1 + root) / k * camera.depth_scale <= 65535) most = 65535;
+    return {static_cast<int>(least_m * camera.depth_scale) - 1,
+            static_cast<int>(std::min(most, 65535.0)) + 1};
+  }
+
   /// Judged by the measured depth, as seeing through is: a depth is one or the other or in front.
   bool sees(int u, int v, double depth_m) const {
+    const auto [least, most] = units_near(depth_m);
+    if (around.farthest.at<std::uint16_t>(v, u) < least) return false;  // hidden: most that are not seen
     const int reach = parameters.window_px;
-    for (int y = std::max(0, v - reach); y <= std::min(view.depth.rows - 1, v + reach); ++y)
-      for (int x = std::max(0, u - reach); x <= std::min(view.depth.cols - 1, u + reach); ++x) {
-        const double measured_m = view.depth.at<std::uint16_t>(y, x) / camera.depth_scale;
-        if (agree(measured_m, depth_m) && dynamic_at(x, y) == kStatic) return true;
-      }
+    const int left = std::max(0, u - reach), right = std::min(view.depth.cols - 1, u + reach);
+    for (int y = std::max(0, v - reach); y <= std::min(view.depth.rows - 1, v + reach); ++y) {
+      const auto* row = view.depth.ptr<std::uint16_t>(y);
+      for (int x = left; x <= right; ++x)
+        if (row[x] >= least && row[x] <= most && agree(row[x] / camera.depth_scale, depth_m) &&
+            dynamic_at(x, y) == kStatic)
+          return true;
+    }
     return false;
   }
 
   void vote(const LabelledPoint& point, Votes& votes) const {
     const Vec3 p = view.camera_from_world * Vec3{point.x, point.y, point.z};
     if (!(p.z >= parameters.min_depth_m && p.z <= parameters.max_depth_m)) return;
-    const Pixel image = camera.project(p);
+    const Pixel image = bent ? camera.project(p) : camera.project_straight(p);
     if (!(image.u > -0.5 && image.v > -0.5 && image.u < view.depth.cols - 0.5 &&
           image.v < view.depth.rows - 0.5))
       return;
-    const int u = static_cast<int>(std::lround(image.u)), v = static_cast<int>(std::lround(image.v));
-    const double nearest_m = nearest.at<std::uint16_t>(v, u) / camera.depth_scale;
+    const int u = static_cast<int>(image.u + 0.5), v = static_cast<int>(image.v + 0.5);
+    const double nearest_m = around.nearest.at<std::uint16_t>(v, u) / camera.depth_scale;
     // The noise of the depth that is measured, which is the larger one.
     if (nearest_m > p.z + tolerance_m(nearest_m)) {
       count(votes.through);
       return;
     }
     const double measured_m = view.depth.at<std::uint16_t>(v, u) / camera.depth_scale;
-    if (sees(u, v, p.z))
+    const bool agrees = agree(measured_m, p.z);
+    const std::uint8_t dynamic = agrees ? dynamic_at(u, v) : std::uint8_t{kStatic};
+    if ((agrees && dynamic == kStatic) || sees(u, v, p.z))
       count(votes.hits);
     else if (measured_m > p.z + tolerance_m(measured_m))
       count(votes.behind);
-    if (!agree(measured_m, p.z)) return;
-    const std::uint8_t dynamic = dynamic_at(u, v);
+    if (!agrees) return;
     if (dynamic == kPriorDynamic) count(votes.person);
     if (dynamic != kStatic) return;
     count(votes.shown);
@@ -97,12 +125,19 @@ struct Look {
 
 }  // namespace
 
-void add_votes(const LabelledCloud& cloud, const Camera& camera, const DepthView& view,
+void add_votes(const PointBlocks& cloud, const Camera& camera, const DepthView& view,
                const Parameters& parameters, std::vector<Votes>& votes) {
-  const Look look{camera, view, parameters, nearest_depths(view.depth, parameters.window_px),
-                  view.camera_from_world.inverse()};
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 1 << 13), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) look.vote(cloud[i], votes[i]);
+  const Look look{camera,
+                  view,
+                  parameters,
+                  window_depths(view.depth, parameters.window_px),
+                  view.camera_from_world.inverse(),
+                  camera.has_distortion()};
+  const Frustum frustum = frustum_of(camera, parameters.min_depth_m, parameters.max_depth_m);
+  tbb::parallel_for(std::size_t{0}, cloud.blocks.size(), [&](std::size_t b) {
+    const Block& block = cloud.blocks[b];
+    if (!block.may_be_in(frustum, view.camera_from_world)) return;
+    for (std::size_t i = block.begin; i < block.end; ++i) look.vote(cloud.points[i], votes[i]);
   });
 }
 

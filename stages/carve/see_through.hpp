@@ -7,6 +7,7 @@
 #include "pipeline/scene/camera.hpp"
 #include "pipeline/scene/labelled_point.hpp"
 #include "pipeline/scene/pose.hpp"
+#include "stages/carve/point_blocks.hpp"
 
 namespace sediment::carve {
 
@@ -45,16 +46,16 @@ struct Votes {
   float x = 0, y = 0, z = 0;  ///< weighted sum of the ways to where they have it, world, metres
 };
 
-/// Adds a view's votes, one entry of `votes` for each point. A view sees a point if some static depth of the
-/// window around its image is that of the point within the tolerance; it sees through it if every pixel of
-/// the window has a depth, and all of them lie behind the point by more than the tolerance. So a point at an
-/// edge, on a surface seen at a grazing angle or where the sensor says nothing is never seen through. In
-/// parallel; votes do not depend on it.
+/// Adds a view's votes, one entry of `votes` for each of `cloud.points`. A view sees a point if some static
+/// depth of the window around its image is that of the point within the tolerance; it sees through it if
+/// every pixel of the window has a depth, and all of them lie behind the point by more than the tolerance. So
+/// a point at an edge, on a surface seen at a grazing angle or where the sensor says nothing is never seen
+/// through. In parallel; votes do not depend on it.
 ///
 /// The pixel on which the point's image falls shows the point if its depth is that of the point within the
 /// tolerance. It says whether a person is there or, if it is static, where the point is: on its ray, at the
 /// depth measured.
-void add_votes(const LabelledCloud& cloud, const Camera& camera, const DepthView& view,
+void add_votes(const PointBlocks& cloud, const Camera& camera, const DepthView& view,
                const Parameters& parameters, std::vector<Votes>& votes);
 
 /// Whether the point goes.

@@ -34,7 +34,7 @@ LabelledPoint at(double x, double y, double z) {
 Votes votes_of(const LabelledPoint& point, const DepthView& view, const Camera& camera = small_camera(),
                const Parameters& parameters = {}) {
   std::vector<Votes> votes(1);
-  add_votes({point}, camera, view, parameters, votes);
+  add_votes(blocks_of({point}), camera, view, parameters, votes);
   return votes[0];
 }
 
@@ -135,9 +135,10 @@ TEST_CASE("a point settles where the views have it in the mean, the exact ones c
   std::vector<Votes> votes(1);
   // Three views from the origin have the wall at 3 m, one from 2 m nearer, more exact by (3 / 1)^2, at 3.02
   // m.
-  for (int i = 0; i < 3; ++i) add_votes({point}, small_camera(), {{}, wall_at(3), {}}, parameters, votes);
+  for (int i = 0; i < 3; ++i)
+    add_votes(blocks_of({point}), small_camera(), {{}, wall_at(3), {}}, parameters, votes);
   const Pose nearer{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, -2}};
-  add_votes({point}, small_camera(), {nearer, wall_at(1.02), {}}, parameters, votes);
+  add_votes(blocks_of({point}), small_camera(), {nearer, wall_at(1.02), {}}, parameters, votes);
   REQUIRE(votes[0].shown == 4);
   const LabelledPoint there = settled(point, votes[0], parameters);
   const double far = 3 / std::pow(3.0, 4), near = 1 / std::pow(1.02, 4);
@@ -147,11 +148,12 @@ TEST_CASE("a point settles where the views have it in the mean, the exact ones c
         Approx(0.2 - (far * 0.2 * 0.03 / 3.03 + near * 0.2 * 0.01 / 1.03) / (far + near)).margin(2e-5));
 
   std::vector<Votes> few(1);
-  for (int i = 0; i < 2; ++i) add_votes({point}, small_camera(), {{}, wall_at(3), {}}, parameters, few);
+  for (int i = 0; i < 2; ++i)
+    add_votes(blocks_of({point}), small_camera(), {{}, wall_at(3), {}}, parameters, few);
   CHECK(settled(point, few[0], parameters) == point);
   const DepthView moving{{}, wall_at(3), cv::Mat(48, 64, CV_8UC1, cv::Scalar(1))};
   std::vector<Votes> by_movers(1);
-  add_votes({point}, small_camera(), moving, parameters, by_movers);
+  add_votes(blocks_of({point}), small_camera(), moving, parameters, by_movers);
   CHECK(by_movers[0].shown == 0);
 }
 
@@ -160,8 +162,9 @@ TEST_CASE("a point goes that more than the share of the frames which show it tak
     const LabelledPoint point = at(0.2, -0.1, 3);
     std::vector<Votes> votes(1);
     const DepthView taken_for{{}, wall_at(wall_m), cv::Mat(48, 64, CV_8UC1, cv::Scalar(dynamic))};
-    for (int i = 0; i < person; ++i) add_votes({point}, small_camera(), taken_for, {}, votes);
-    for (int i = 0; i < shown; ++i) add_votes({point}, small_camera(), {{}, wall_at(3), {}}, {}, votes);
+    for (int i = 0; i < person; ++i) add_votes(blocks_of({point}), small_camera(), taken_for, {}, votes);
+    for (int i = 0; i < shown; ++i)
+      add_votes(blocks_of({point}), small_camera(), {{}, wall_at(3), {}}, {}, votes);
     return is_carved(votes[0], {});
   };
   CHECK(goes(4, 11));
@@ -183,12 +186,13 @@ TEST_CASE("a noisy wall that many views see comes out flat") {
   };
   LabelledCloud cloud;
   for (int i = 0; i < 500; ++i) cloud.push_back(at(0.003 * i - 0.75, 0.002 * i - 0.5, 4 + noise_m(random)));
+  const PointBlocks blocks = blocks_of(cloud);
   std::vector<Votes> votes(cloud.size());
-  for (int i = 0; i < 50; ++i) add_votes(cloud, small_camera(), {{}, noisy_wall(), {}}, parameters, votes);
+  for (int i = 0; i < 50; ++i) add_votes(blocks, small_camera(), {{}, noisy_wall(), {}}, parameters, votes);
   double before = 0, after = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    before += std::pow(cloud[i].z - 4, 2);
-    after += std::pow(settled(cloud[i], votes[i], parameters).z - 4, 2);
+    before += std::pow(blocks.points[i].z - 4, 2);
+    after += std::pow(settled(blocks.points[i], votes[i], parameters).z - 4, 2);
   }
   CHECK(std::sqrt(after / 500) < std::sqrt(before / 500) / 5);
 }
@@ -202,7 +206,7 @@ TEST_CASE("votes do not depend on the number of threads") {
   for (const std::size_t threads : {1, 4}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     std::vector<Votes>& votes = results.emplace_back(cloud.size());
-    add_votes(cloud, small_camera(), {{}, wall_at(3), {}}, {.settle = true}, votes);
+    add_votes(blocks_of(cloud), small_camera(), {{}, wall_at(3), {}}, {.settle = true}, votes);
   }
   const auto same = [](const Votes& a, const Votes& b) {
     return a.through == b.through && a.hits == b.hits && a.behind == b.behind && a.shown == b.shown &&
