@@ -10,7 +10,7 @@ namespace sediment {
 class FlowField {
  public:
   FlowField() = default;
-  /// `displacements` is CV_32FC2 over an image of `full` pixels.
+  /// `displacements` is CV_32FC2, continuous, over an image of `full` pixels.
   FlowField(cv::Mat displacements, cv::Size full);
 
   bool empty() const { return grid_.empty(); }
@@ -27,8 +27,11 @@ class FlowField {
            lower_share * ((1 - right_share) * lower[0] + right_share * lower[1]);
   }
 
+  /// The same at `count` positions.
+  void at_each(const float* u, const float* v, std::size_t count, float* du, float* dv) const;
+
  private:
-  cv::Mat grid_;
+  cv::Mat grid_;  ///< continuous
   float cells_per_px_x_ = 1, cells_per_px_y_ = 1;
   float last_x_ = 0, last_y_ = 0;
 };

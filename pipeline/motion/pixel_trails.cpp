@@ -3,6 +3,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sediment {
@@ -19,22 +21,36 @@ struct Step {
   float absolute, relative;
 
   void operator()(std::size_t first, std::size_t last) const {
-    const float last_u = static_cast<float>(depth.cols - 1), last_v = static_cast<float>(depth.rows - 1);
-    for (std::size_t i = first; i < last; ++i) {
-      if (!trails.valid[i]) continue;
-      const cv::Point2f moved = flow.at(trails.u[i], trails.v[i]);
-      const float u = trails.u[i] += moved.x, v = trails.v[i] += moved.y;
-      if (!(u >= 0 && u <= last_u && v >= 0 && v <= last_v)) {
-        trails.valid[i] = 0;
-        continue;
+    constexpr std::size_t kMost = 512;
+    std::array<float, kMost> du, dv, back_u, back_v;
+    for (std::size_t begin = first; begin < last; begin += kMost) {
+      const std::size_t count = std::min(kMost, last - begin);
+      float *u = trails.u.data() + begin, *v = trails.v.data() + begin;
+      flow.at_each(u, v, count, du.data(), dv.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        u[i] += du[i];
+        v[i] += dv[i];
       }
-      if (!is_mutual(moved, reverse.at(u, v))) trails.trust[i] *= kOneWayTrust;
-      const auto seen = trails.nearest<std::uint16_t>(depth, i);
-      if (seen == 0) continue;
-      const float before = trails.depth[i], change = std::abs(static_cast<float>(seen) - before);
-      if (before != 0 && change > absolute + relative * before) trails.valid[i] = 0;
-      trails.depth[i] = seen;
+      reverse.at_each(u, v, count, back_u.data(), back_v.data());
+      for (std::size_t i = 0; i < count; ++i)
+        if (trails.valid[begin + i]) check(begin + i, {du[i], dv[i]}, {back_u[i], back_v[i]});
     }
+  }
+
+  /// Trail i, which was valid until it moved.
+  void check(std::size_t i, cv::Point2f moved, cv::Point2f back) const {
+    const float last_u = static_cast<float>(depth.cols - 1), last_v = static_cast<float>(depth.rows - 1);
+    const float u = trails.u[i], v = trails.v[i];
+    if (!(u >= 0 && u <= last_u && v >= 0 && v <= last_v)) {
+      trails.valid[i] = 0;
+      return;
+    }
+    if (!is_mutual(moved, back)) trails.trust[i] *= kOneWayTrust;
+    const auto seen = trails.nearest<std::uint16_t>(depth, i);
+    if (seen == 0) return;
+    const float before = trails.depth[i], change = std::abs(static_cast<float>(seen) - before);
+    if (before != 0 && change > absolute + relative * before) trails.valid[i] = 0;
+    trails.depth[i] = seen;
   }
 };
 

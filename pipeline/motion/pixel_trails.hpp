@@ -21,7 +21,7 @@ struct PixelTrails {
   /// Value of an image at the nearest pixel of trail i, which must be valid.
   template <class T>
   T nearest(const cv::Mat& image, std::size_t i) const {
-    return image.at<T>(static_cast<int>(std::lround(v[i])), static_cast<int>(std::lround(u[i])));
+    return image.at<T>(static_cast<int>(v[i] + 0.5F), static_cast<int>(u[i] + 0.5F));
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <random>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -74,4 +75,16 @@ TEST_CASE("flow refuses images of two sizes and tiny ones") {
                   std::invalid_argument);
   CHECK_THROWS_AS(flow_between(image(cv::Rect(0, 0, 64, 8)), image(cv::Rect(0, 0, 64, 8)), {64, 8}),
                   std::invalid_argument);
+}
+
+TEST_CASE("the flow at many positions is that at each of them, to the bit, outside the image too") {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> displacement(-30, 30), along(-20, 180);
+  cv::Mat displacements(60, 80, CV_32FC2);
+  for (auto& d : cv::Mat_<cv::Point2f>(displacements)) d = {displacement(random), displacement(random)};
+  const FlowField flow(displacements, {160, 120});
+  std::vector<float> u(1001), v(1001), du(1001), dv(1001);
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] = along(random), v[i] = along(random);
+  flow.at_each(u.data(), v.data(), u.size(), du.data(), dv.data());
+  for (std::size_t i = 0; i < u.size(); ++i) REQUIRE(flow.at(u[i], v[i]) == cv::Point2f(du[i], dv[i]));
 }
