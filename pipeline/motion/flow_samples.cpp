@@ -1,14 +1,7 @@
 #include <opencv2/core.hpp>
 
 #include "pipeline/motion/optical_flow.hpp"
-
-// Vector code for the processor at hand; each lane does the sums of FlowField::at in the same order, so
-// results are equal.
-#if defined(__x86_64__)
-#define SEDIMENT_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
-#else
-#define SEDIMENT_CLONES
-#endif
+#include "pipeline/scene/vector_clones.hpp"
 
 namespace sediment {
 namespace {
@@ -20,6 +13,7 @@ struct Grid {
   float cells_per_px_x, cells_per_px_y, last_x, last_y;
 };
 
+/// The sums of FlowField::at in the same order.
 SEDIMENT_CLONES void sample(const Grid& grid, const float* __restrict u, const float* __restrict v,
                             std::size_t count, float* __restrict du, float* __restrict dv) {
   const float* const values = grid.values;

@@ -17,8 +17,7 @@ struct Frustum {
 };
 Frustum frustum_of(const Camera& camera, double min_depth_m, double max_depth_m);
 
-/// Consecutive points that lie near each other, within a sphere. Its radius is NaN if one of them is not
-/// finite.
+/// Consecutive points that lie near each other: the finite ones within a sphere. NaN if there is none.
 struct Block {
   std::size_t begin = 0, end = 0;
   Vec3 centre_m;

@@ -20,8 +20,8 @@ struct Parameters {
   /// Frames that are not selected add only what no selected one saw: points that no earlier one is near, by
   /// cells of this side (CoveredCells). 0: they add nothing.
   double fill_m = 0;
-  int fill_step =
-      1;  ///< their pixel_step: what only one of them sees is far or narrow, and needs every pixel
+  /// Their pixel_step: what only one of them sees is far or narrow, and needs every pixel.
+  int fill_step = 1;
   Projection projection;
   PcdEncoding encoding = PcdEncoding::binary;
 };

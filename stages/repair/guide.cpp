@@ -5,13 +5,7 @@
 #include <cstring>
 #include <opencv2/imgproc.hpp>
 
-// Vector code for the processor at hand; each lane does the same sums in the same order, so results are
-// equal.
-#if defined(__x86_64__)
-#define SEDIMENT_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
-#else
-#define SEDIMENT_CLONES
-#endif
+#include "pipeline/scene/vector_clones.hpp"
 
 namespace sediment::repair {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <cstdint>
 
+#include "pipeline/scene/vector_clones.hpp"
+
 // What loops over batches of pixels are written with. They have no branches, so that the compiler makes
-// vector code of them, of the width that the processor at hand has. Contraction to fused multiply-add is off
-// in the whole project: all clones give the same bits.
-#define SEDIMENT_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
+// vector code of them, of the width that the processor at hand has (SEDIMENT_CLONES).
 #define SEDIMENT_INLINE inline __attribute__((always_inline))
 
 namespace sediment::synthetic {
