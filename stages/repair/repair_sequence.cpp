@@ -128,14 +128,21 @@ class Repair {
 
   /// Whether a track that a frame has not detected may be there: what moves by itself is also carried on
   /// beyond its first and last detection; other things only between two, or they would be dragged along by
-  /// what passes in front of them.
+  /// what passes in front of them. A frame in which nothing at all is detected denies nothing: into such a
+  /// one they are carried from its `neighbors`.
   bool may_appear(int track, std::size_t frame_idx) const {
     if (moves_by_itself(track)) return true;
     const auto& frames = tracks_[static_cast<std::size_t>(track)].frames;
     const auto after = std::upper_bound(frames.begin(), frames.end(), frame_idx);
-    const auto gap = static_cast<std::size_t>(parameters_.vote.max_gap);
-    return after != frames.end() && after != frames.begin() && *after <= frame_idx + gap &&
-           *std::prev(after) + gap >= frame_idx;
+    const auto soon = [&](int reach) {
+      return after != frames.end() && *after <= frame_idx + static_cast<std::size_t>(reach);
+    };
+    const auto lately = [&](int reach) {
+      return after != frames.begin() && *std::prev(after) + static_cast<std::size_t>(reach) >= frame_idx;
+    };
+    const int max_gap = parameters_.vote.max_gap, neighbors = parameters_.vote.neighbors;
+    if (soon(max_gap) && lately(max_gap)) return true;
+    return clip_.at(frame_idx).detections.instances.empty() && (soon(neighbors) || lately(neighbors));
   }
 
   /// Ids of the instances that may move by themselves.

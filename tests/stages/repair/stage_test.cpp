@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <opencv2/core.hpp>
 
@@ -80,6 +81,33 @@ TEST_CASE("the stage repair writes equal bytes with 1 and with 4 threads") {
   REQUIRE(scene.run("masks", scene.out("four") + "--threads 4").code == 0);
   CHECK(contract::read_manifest(scene.folder / "one").id() ==
         contract::read_manifest(scene.folder / "four").id());
+}
+
+TEST_CASE("a thing is carried two frames on into such in which nothing at all is detected") {
+  const Scene scene;
+  const MasksReader detected(scene.folder / "masks");
+  MasksWriter chairs(scene.folder / "chairs");
+  for (std::size_t i = 0; i < scene.stamps.size(); ++i) {
+    InstanceMask mask = detected.read(scene.stamps[i]);
+    for (Instance& instance : mask.instances) instance.class_name = "chair";
+    if (i < 20 || i > 30) mask = {cv::Mat(120, 160, CV_16UC1, cv::Scalar(0)), {}};
+    if (i == 19) {  // something else is detected here, so the chair is not there
+      mask.ids(cv::Rect(0, 0, 15, 15)) = 2;
+      mask.instances = {{2, "book", 0.9}};
+    }
+    chairs.write(scene.stamps[i], mask);
+  }
+  chairs.finish();
+  REQUIRE(scene.run("chairs", scene.out("result")).code == 0);
+  const MasksReader result(scene.folder / "result");
+  const auto has_chair = [&](std::size_t i) {
+    const auto instances = result.instances(scene.stamps[i]);
+    return std::any_of(instances.begin(), instances.end(),
+                       [](const Instance& instance) { return instance.class_name == "chair"; });
+  };
+  CHECK_FALSE(has_chair(19));
+  CHECK((has_chair(18) && has_chair(20) && has_chair(30) && has_chair(31) && has_chair(32)));
+  CHECK_FALSE((has_chair(17) || has_chair(33)));
 }
 
 TEST_CASE("the stage repair takes masks without any instance") {
