@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "pipeline/motion/optical_flow.hpp"
+#include "pipeline/scene/nearest_pixel.hpp"
 
 namespace sediment {
 
@@ -21,7 +21,7 @@ struct PixelTrails {
   /// Value of an image at the nearest pixel of trail i, which must be valid.
   template <class T>
   T nearest(const cv::Mat& image, std::size_t i) const {
-    return image.at<T>(static_cast<int>(v[i] + 0.5F), static_cast<int>(u[i] + 0.5F));
+    return image.at<T>(nearest_pixel(v[i]), nearest_pixel(u[i]));
   }
 };
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "pipeline/scene/frame.hpp"
+#include "pipeline/scene/nearest_pixel.hpp"
 
 namespace sediment::carve {
 namespace {
@@ -86,7 +87,7 @@ struct Look {
     if (!(image.u > -0.5 && image.v > -0.5 && image.u < view.depth.cols - 0.5 &&
           image.v < view.depth.rows - 0.5))
       return;
-    const int u = static_cast<int>(image.u + 0.5), v = static_cast<int>(image.v + 0.5);
+    const int u = nearest_pixel(image.u), v = nearest_pixel(image.v);
     const double nearest_m = around.nearest.at<std::uint16_t>(v, u) / camera.depth_scale;
     // The noise of the depth that is measured, which is the larger one.
     if (nearest_m > p.z + tolerance_m(nearest_m)) {
