@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "pipeline/scene/frame.hpp"
+#include "pipeline/scene/nearest_pixel.hpp"
 
 namespace sediment::movers {
 namespace {
@@ -66,7 +67,7 @@ Says judge(const Pair& pair, const Camera& camera, const Vec3& point,
   const Pixel image = camera.project(p);
   if (!(image.u > -0.5 && image.v > -0.5 && image.u < camera.width - 0.5 && image.v < camera.height - 0.5))
     return Says::nothing;
-  const int u = static_cast<int>(std::lround(image.u)), v = static_cast<int>(std::lround(image.v));
+  const int u = nearest_pixel(image.u), v = nearest_pixel(image.v);
   const auto tolerance_m = [&](double there_m) {
     return pair.slack_m +
            parameters.sigmas * parameters.noise * std::hypot(point.z * point.z, there_m * there_m);
@@ -111,7 +112,8 @@ Verdicts verdicts_of(const View& view, std::span<const Reference* const> referen
   const auto count = [](std::uint8_t& votes) { votes += votes < kMostVotes ? 1 : 0; };
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
-      const int x = column * kStep_px + kStep_px / 2, y = row * kStep_px + kStep_px / 2;
+      const cv::Point pixel = pixel_of({column, row});
+      const int x = pixel.x, y = pixel.y;
       const double z = view.depth.at<std::uint16_t>(y, x) / camera.depth_scale;
       if (!(z >= parameters.min_depth_m && z <= parameters.max_depth_m)) continue;
       const double step_m = 0.03 + 0.03 * z;

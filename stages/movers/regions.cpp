@@ -35,8 +35,7 @@ void grow(cv::Mat& regions, const cv::Mat& open, const cv::Mat& depth, double de
     for (int x = 0; x < regions.cols; ++x)
       if (regions.at<std::uint8_t>(y, x)) front.emplace_back(x, y);
   const auto depth_at = [&](const cv::Point& p) {
-    return depth.at<std::uint16_t>(p.y * kStep_px + kStep_px / 2, p.x * kStep_px + kStep_px / 2) /
-           depth_scale;
+    return depth.at<std::uint16_t>(pixel_of(p)) / depth_scale;
   };
   const cv::Rect image({}, regions.size());
   while (!front.empty()) {
